@@ -31,11 +31,13 @@
 //! | H-14 | [`hardened::h14_fail_safe`] |
 //! | what the CAV saw itself | [`hardened::detection_history`] |
 //! | strict, exact and lax reading (`spec/4-arithmetic.md`) | [`numbers::reading`] |
+//! | the monitor that a vehicle calls (`spec/monitor.md`) | [`monitor`] |
 //! | how much the model computes | [`work`] |
 
 pub mod cycle;
 pub mod hardened;
 pub mod input;
+pub mod monitor;
 pub mod numbers;
 pub mod offloading;
 pub mod report;

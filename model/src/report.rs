@@ -210,3 +210,16 @@ pub struct Report {
     /// The problem, when `failed_stage` is `Input`.
     pub input: Option<InvalidInput>,
 }
+
+impl Report {
+    /// What decided, where a stage failed.
+    pub fn witness(&self) -> Option<&Witness> {
+        self.stages.iter().find_map(|outcome| match outcome {
+            Outcome::Failed(witness) => Some(witness),
+            Outcome::Passed
+            | Outcome::Skipped(_)
+            | Outcome::NotApplicable(_)
+            | Outcome::NotScheduled => None,
+        })
+    }
+}

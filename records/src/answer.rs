@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::composition_answer::CompositionAnswer;
 use crate::error::LineError;
+use crate::monitor_answer::MonitorAnswer;
 use crate::offloading_answer::OffloadingAnswer;
 use crate::record::value::Word;
 
@@ -23,6 +24,8 @@ pub enum Answer {
     Offloading(OffloadingAnswer),
     /// To a composition.
     Composition(CompositionAnswer),
+    /// To a sequence of the monitor.
+    Monitor(MonitorAnswer),
     /// To a line that is no record, or to a record with invalid local input.
     Error(ErrorAnswer),
 }
@@ -201,7 +204,8 @@ impl StageAnswer {
 }
 
 impl WitnessAnswer {
-    fn new(witness: &Witness) -> Self {
+    /// The witness that the model gives.
+    pub fn new(witness: &Witness) -> Self {
         Self {
             rule: Word(witness.rule),
             point: witness.point,

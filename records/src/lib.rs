@@ -5,6 +5,7 @@ pub mod composition_answer;
 pub mod error;
 pub mod files;
 pub mod lines;
+pub mod monitor_answer;
 pub mod names;
 pub mod offloading_answer;
 pub mod record;
@@ -24,12 +25,14 @@ use serde_json::value::RawValue;
 pub use answer::Answer;
 pub use error::LineError;
 pub use read::Record;
+pub use record::monitor::Sequence;
 pub use record::offloading::Trace;
 pub use typed::excerpt as shown;
-pub use write::{cycle_to_line, task_to_line, trace_to_line};
+pub use write::{cycle_to_line, sequence_to_line, task_to_line, trace_to_line};
 
 use answer::CycleAnswer;
 use composition_answer::CompositionAnswer;
+use monitor_answer::MonitorAnswer;
 use offloading_answer::OffloadingAnswer;
 
 /// Reads the record on line number `number` (from 1), given without its newline. A record may
@@ -60,6 +63,10 @@ pub fn decide(record: Record) -> Result<Answer, (String, InvalidInput)> {
         }
         Record::Composition { id, task } => match compose(&task) {
             Ok((_, answer)) => Ok(Answer::Composition(CompositionAnswer::new(id, answer))),
+            Err(problem) => Err((id, problem)),
+        },
+        Record::Monitor { id, sequence } => match MonitorAnswer::run(id.clone(), &sequence) {
+            Ok(answer) => Ok(Answer::Monitor(answer)),
             Err(problem) => Err((id, problem)),
         },
     }
@@ -97,7 +104,9 @@ pub fn cycle_from_line(
 ) -> Result<(String, Cycle), LineError> {
     match parse(line.as_ref(), number)? {
         Record::Cycle { id, cycle } => Ok((id, *cycle)),
-        Record::Offloading { id, .. } | Record::Composition { id, .. } => {
+        Record::Offloading { id, .. }
+        | Record::Composition { id, .. }
+        | Record::Monitor { id, .. } => {
             let problem = InvalidInput {
                 field: String::from("kind"),
                 index: None,

@@ -2,6 +2,7 @@
 //! each of them once.
 
 use mufasa_model::input::profile::Profile;
+use mufasa_model::monitor::messages::Dropped;
 use mufasa_model::report::{FailedStage, Input, Reason, Rule, Stage};
 use mufasa_model::services::configuration::{Configuration, Group};
 use mufasa_model::services::orchestrator::Rule as PlacementRule;
@@ -28,6 +29,8 @@ pub enum Kind {
     Offloading,
     /// A composition.
     Composition,
+    /// A sequence of the monitor.
+    Monitor,
 }
 
 macro_rules! words {
@@ -63,6 +66,7 @@ words! {
         Kind::Cycle => "cycle",
         Kind::Offloading => "offloading",
         Kind::Composition => "composition",
+        Kind::Monitor => "monitor",
     }
 
     /// Which rules apply.
@@ -127,6 +131,17 @@ words! {
     group(Group as "Group") {
         Group::Mot => "mot",
         Group::Plan => "plan",
+    }
+
+    /// Why the monitor dropped an element.
+    dropped(Dropped as "Dropped") {
+        Dropped::OtherSession => "other_session",
+        Dropped::DoesNotFit => "does_not_fit",
+        Dropped::Stale => "stale",
+        Dropped::Starved => "starved",
+        Dropped::Late => "late",
+        Dropped::Repeated => "repeated",
+        Dropped::Older => "older",
     }
 
     /// The rule of a composition that cannot be kept.

@@ -10,17 +10,19 @@ use serde_json::{from_str, to_string};
 
 /// The keys of records but for parameters of the stages, so that those of each object stand in its order.
 #[rustfmt::skip]
-const KEYS: [&str; 59] = [
+const KEYS: [&str; 68] = [
     "kind", "id", "profile", "parameters", "t_wait_ns", "request_timeout_ns",
-    "l_max_ns", "dt_max_ns", "qos_hold", "now_ns", "configuration", "ego",
-    "trajectory", "tracks", "detections", "lead", "route", "grid",
-    "detection_history", "events", "services", "goal", "same_station", "local_only",
-    "closed", "stations", "stamp_ns", "points", "items", "gap",
-    "t_ns", "type", "requires", "guarantees", "station", "group",
-    "session", "generated_ns", "verdict", "groups", "sessions", "mot",
-    "plan", "x", "y", "cos", "sin", "vx",
-    "vy", "speed", "left", "right", "resolution", "length",
-    "width", "height", "center_offset", "occupied", "unknown",
+    "l_max_ns", "dt_max_ns", "qos_hold", "period_ns", "last_session", "supervise_local",
+    "stall", "way", "time_ns", "memory", "t_ns", "type",
+    "requires", "guarantees", "station", "group", "session", "generated_ns",
+    "verdict", "groups", "sessions", "now_ns", "configuration", "ego",
+    "trajectory", "tracks", "detections", "cross_sections", "lead", "route",
+    "grid", "detection_history", "measured", "events", "services", "goal",
+    "same_station", "local_only", "closed", "stations", "stamp_ns", "points",
+    "items", "gap", "mot", "plan", "x", "y",
+    "cos", "sin", "vx", "vy", "speed", "left",
+    "right", "resolution", "length", "width", "height", "center_offset",
+    "occupied", "unknown",
 ];
 
 /// Records are not deeper; what is, is left as it is.
@@ -158,7 +160,7 @@ mod tests {
     #[test]
     fn the_keys_stand_as_the_spec_shows_them() {
         let records = shown();
-        assert_eq!(records.len(), 2);
+        assert_eq!(records.len(), 3);
         assert!(records.iter().map(|record| assert_ordered(record)).sum::<usize>() > 15);
     }
 

@@ -6,9 +6,10 @@ use mufasa_model::services::orchestrator::Task;
 use serde::Deserialize;
 
 use crate::names::Kind;
+use crate::record::monitor::Sequence;
 use crate::record::offloading::{Offloading, Trace};
 use crate::record::value::Word;
-use crate::record::{Recorded, composition, cycle, from_object};
+use crate::record::{Recorded, composition, cycle, from_object, monitor};
 use crate::typed::from_json;
 
 /// A record of one of the kinds of `spec/5-interfaces.md`.
@@ -34,6 +35,13 @@ pub enum Record {
         id: String,
         /// What to compose.
         task: Task,
+    },
+    /// `kind` monitor.
+    Monitor {
+        /// Its id.
+        id: String,
+        /// Settings, events and cycles.
+        sequence: Box<Sequence>,
     },
 }
 
@@ -67,6 +75,10 @@ pub fn record(json: &str) -> Result<Record, InvalidInput> {
         Kind::Composition => {
             let record: composition::Composition = from_json(json)?;
             Record::Composition { id, task: record.into_model() }
+        }
+        Kind::Monitor => {
+            let sequence = Box::new(from_json::<monitor::Monitor>(json)?.into_model());
+            Record::Monitor { id, sequence }
         }
     })
 }

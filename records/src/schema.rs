@@ -9,9 +9,11 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::{CycleAnswer, ErrorAnswer};
 use crate::composition_answer::CompositionAnswer;
+use crate::monitor_answer::MonitorAnswer;
 use crate::offloading_answer::OffloadingAnswer;
 use crate::record::composition::Composition;
 use crate::record::cycle::Cycle;
+use crate::record::monitor::Monitor;
 use crate::record::offloading::Offloading;
 
 /// The schema of a vector; its definitions are those of all kinds.
@@ -23,9 +25,11 @@ pub fn all() -> Vec<(&'static str, Value)> {
         ("cycle", of::<Cycle>(Contract::Deserialize)),
         ("offloading", of::<Offloading>(Contract::Deserialize)),
         ("composition", of::<Composition>(Contract::Deserialize)),
+        ("monitor", of::<Monitor>(Contract::Deserialize)),
         ("cycle-answer", of::<CycleAnswer>(Contract::Serialize)),
         ("offloading-answer", of::<OffloadingAnswer>(Contract::Serialize)),
         ("composition-answer", of::<CompositionAnswer>(Contract::Serialize)),
+        ("monitor-answer", of::<MonitorAnswer>(Contract::Serialize)),
         ("error-answer", of::<ErrorAnswer>(Contract::Serialize)),
         (VECTOR, vector()),
     ]
@@ -84,10 +88,12 @@ fn vector() -> Value {
     let cycle = records.subschema_for::<Cycle>();
     let offloading = records.subschema_for::<Offloading>();
     let composition = records.subschema_for::<Composition>();
+    let monitor = records.subschema_for::<Monitor>();
     let mut answers = generator(Contract::Serialize);
     let cycle_answer = answers.subschema_for::<CycleAnswer>();
     let offloading_answer = answers.subschema_for::<OffloadingAnswer>();
     let composition_answer = answers.subschema_for::<CompositionAnswer>();
+    let monitor_answer = answers.subschema_for::<MonitorAnswer>();
     let error = answers.subschema_for::<ErrorAnswer>();
     let mut definitions = Map::new();
     for generator in [&mut records, &mut answers] {
@@ -131,6 +137,7 @@ fn vector() -> Value {
             pair(&cycle, &cycle_answer),
             pair(&offloading, &offloading_answer),
             pair(&composition, &composition_answer),
+            pair(&monitor, &monitor_answer),
             {"properties": {"input": {"type": "string"}, "expect": error}},
         ],
         "$defs": definitions,

@@ -8,8 +8,9 @@ use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
 
+use crate::record::monitor::Sequence;
 use crate::record::offloading::Trace;
-use crate::record::{Recorded, composition, cycle, offloading};
+use crate::record::{Recorded, composition, cycle, monitor, offloading};
 
 /// The record of a cycle. Doubles are shortest decimals that read back to themselves, or `"nan"`,
 /// `"inf"`, `"-inf"`; parameters at their default are left out. Reading the line gives the same
@@ -26,6 +27,11 @@ pub fn trace_to_line(id: &str, trace: &Trace) -> String {
 /// The record of a task.
 pub fn task_to_line(id: &str, task: &Task) -> String {
     line(&composition::Composition { id: id.to_owned(), ..Recorded::of_model(task) })
+}
+
+/// The record of a sequence; parameters at their default are left out.
+pub fn sequence_to_line(id: &str, sequence: &Sequence) -> String {
+    line(&monitor::Monitor { id: id.to_owned(), ..Recorded::of_model(sequence) })
 }
 
 fn line(record: &impl Serialize) -> String {

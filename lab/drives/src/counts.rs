@@ -1,4 +1,4 @@
-//! Counts in words.
+//! Counts in words, and times.
 
 /// `1 drive`, `2 drives`; of several words the first takes the s.
 pub fn counted(count: usize, what: &str) -> String {
@@ -9,9 +9,20 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
+/// A time after another, s.
+#[expect(clippy::cast_precision_loss, reason = "to be read, drawn, or of drives of minutes")]
+pub(crate) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
+    (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn differences_of_extreme_times_do_not_overflow() {
+        assert!(seconds(i64::MIN, i64::MAX) > 1.8e10);
+    }
 
     #[test]
     fn one_is_no_plural() {

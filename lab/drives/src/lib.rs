@@ -11,13 +11,14 @@ pub mod pictures;
 pub mod progress;
 pub mod readers;
 mod recording;
-mod temporary;
+mod spool;
 
 pub use attacks::catalogue::Attack;
 pub use attacks::error::InjectError;
 pub use attacks::inject;
 pub use attacks::injection::{Injection, ParseInjectionError};
 pub use counts::counted;
+pub(crate) use counts::seconds;
 pub use drive::{Drive, DriveCycle, Stream};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};

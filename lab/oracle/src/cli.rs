@@ -264,10 +264,13 @@ fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
     let settings = prove::Settings {
         // The usual file holds all claims, so that a run of some writes only where it is told.
         out: match arguments.out {
-            None if arguments.names.is_empty() => Some(file_or(None, prove::FILE)),
+            None if arguments.names.is_empty() && arguments.required.is_none() => {
+                Some(file_or(None, prove::FILE))
+            }
             out => out,
         },
         names: arguments.names,
+        required: arguments.required,
         cbmc: arguments.cbmc,
         markdown: arguments.markdown,
         sources: arguments.sources,

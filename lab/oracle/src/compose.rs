@@ -37,7 +37,7 @@ pub fn composed(text: &str) -> Result<Composed, LineError> {
         .map_err(|error| one_of_many(text).unwrap_or(error))?
     {
         Record::Composition { id, task } => (id, task),
-        Record::Cycle { id, .. } | Record::Offloading { id, .. } => {
+        Record::Cycle { id, .. } | Record::Offloading { id, .. } | Record::Monitor { id, .. } => {
             return Err(LineError::new(
                 1,
                 Some(id),

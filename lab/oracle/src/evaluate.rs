@@ -7,13 +7,10 @@ mod log;
 mod maps;
 pub mod merge;
 mod parts;
-mod plots;
-mod published;
 mod replay;
 mod report;
 mod scenes;
 pub mod shards;
-mod shown;
 pub mod tables;
 mod text;
 
@@ -31,19 +28,20 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::job::Job;
 use mufasa_sim::experiment::kept::Run;
-use mufasa_sim::experiment::made::Campaign;
+use mufasa_sim::experiment::left_out::LEFT_OUT;
+use mufasa_sim::experiment::made::{Campaign, Experiment};
+use mufasa_sim::experiment::row::Row;
 use mufasa_sim::experiment::select::{Options, Select};
 use mufasa_sim::map::Town;
 use mufasa_sim::map::id::MapId;
 
-use self::arguments::{EvaluateArguments, Experiment};
-use self::codes::{BAD_INPUT, DISAGREES, FAILED};
-use self::plots::figures::Figure;
-use self::report::{FailedRun, REPLAYS, Section};
-use self::shown::{Shown, named};
-use self::tables::Rows;
+use self::arguments::{Asked, EvaluateArguments};
+use self::codes::{DISAGREES, FAILED, refused, say};
+use self::report::{FailedRun, Leaves, REPLAYS, Section};
+use self::tables::named;
 use self::text::{csv, json, said};
 use crate::document;
+use crate::rows::{Column, Rows};
 
 /// One cycle of so many is checked by the model if not all are.
 const CHECKED_EVERY: u64 = 100;
@@ -57,7 +55,6 @@ struct Results {
     json: String,
     /// The rows of the table, and the runs, as CSV.
     csv: [String; 2],
-    figures: Vec<Figure>,
     failed: Vec<Run>,
 }
 
@@ -70,17 +67,17 @@ pub fn run(
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let (size, name) = match &arguments.experiment {
-        Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
-        Some(Experiment::Falsify(it)) => return falsify::run(it, stop, out, err),
-        Some(Experiment::Scenes(it)) => return scenes::run(it, out, err),
+        Some(Asked::Replay(it)) => return replay::run(it, jobs, out, err),
+        Some(Asked::Falsify(it)) => return falsify::run(it, stop, out, err),
+        Some(Asked::Scenes(it)) => return scenes::run(it, out, err),
         None => (&arguments.size, "failures"),
-        Some(Experiment::Failures(size)) => (size, "failures"),
-        Some(Experiment::Readings(size)) => (size, "readings"),
-        Some(Experiment::Stages(size)) => (size, "stages"),
-        Some(Experiment::Attacks(size)) => (size, "attacks"),
-        Some(Experiment::Combinations(size)) => (size, "combinations"),
-        Some(Experiment::Availability(size)) => (size, "availability"),
-        Some(Experiment::LeftOut(size)) => (size, "left-out"),
+        Some(Asked::Failures(size)) => (size, "failures"),
+        Some(Asked::Readings(size)) => (size, "readings"),
+        Some(Asked::Stages(size)) => (size, "stages"),
+        Some(Asked::Attacks(size)) => (size, "attacks"),
+        Some(Asked::Combinations(size)) => (size, "combinations"),
+        Some(Asked::Availability(size)) => (size, "availability"),
+        Some(Asked::LeftOut(size)) => (size, "left-out"),
     };
     let select = Select {
         shard: size.shard,
@@ -116,41 +113,17 @@ fn ended(
 ) -> io::Result<u8> {
     let (results, select) = match made {
         Ok(made) => made,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(BAD_INPUT);
-        }
+        Err(message) => return Ok(refused(&message, err)),
     };
     let checks = select.checks.into_inner().unwrap_or_else(PoisonError::into_inner);
     let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
-    write!(out, "{}", results.table.text())?;
+    write!(out, "{}", results.table.text(None))?;
     tell(&checks, out, err)?;
-    let mut written = Vec::new();
-    if let Some(folder) = folder {
-        let names = draw(folder, &drawn).and_then(|pages| {
-            let mut names = write_files(folder, &results)?;
-            names.push(write_report(folder, &results, &checks)?);
-            names.extend(pages);
-            Ok(names)
-        });
-        written.push((folder, names));
+    let code = code(&results, &checks);
+    match leaves(results, &checks, drawn, folder).write(folder, document) {
+        Ok(files) => say(&files, out).map(|()| code),
+        Err(message) => Ok(refused(&message, err)),
     }
-    if let Some(file) = document {
-        written.push((file, put(file, &results).map(|()| Vec::new())));
-    }
-    for (place, done) in written {
-        match done {
-            Ok(names) => {
-                let mut names = names.iter();
-                names.try_for_each(|name| writeln!(out, "{}", place.join(name).display()))?;
-            }
-            Err(error) => {
-                complain(err, &format!("{}: cannot be written: {error}", place.display()));
-                return Ok(BAD_INPUT);
-            }
-        }
-    }
-    Ok(code(&results, &checks))
 }
 
 /// Says what the model was asked, and names where it disagrees.
@@ -174,6 +147,9 @@ fn code(results: &Results, checks: &Checks) -> u8 {
 
 type Made = Result<Results, String>;
 
+/// An experiment, and the columns of its table.
+type Shown = (Experiment, &'static [Column<Row>]);
+
 /// How large an experiment is when its defaults are these, and which of its runs are made.
 struct Task<'t> {
     sized: &'t (dyn Fn(Options) -> Options + Sync),
@@ -183,9 +159,8 @@ struct Task<'t> {
 /// The runs of an experiment; none, if there is no such one.
 fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job> {
     let on = |options| Options { map: town.id, ..sized(options) };
-    named(name).map_or_else(Vec::new, |Shown { experiment, .. }| {
-        experiment.jobs(town, on(experiment.options))
-    })
+    named(name)
+        .map_or_else(Vec::new, |(experiment, _)| experiment.jobs(town, on(experiment.options)))
 }
 
 /// Whether files can be written into the folder.
@@ -196,7 +171,7 @@ fn prepared(folder: Option<&Path>) -> Result<(), String> {
 }
 
 /// In a pool of so many threads.
-fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, shown: &Shown) -> Made {
+fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, shown: Shown) -> Made {
     let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let results = pool.map_err(said)?.install(|| made(shown, task, town))?;
@@ -211,42 +186,25 @@ fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, shown: &Shown)
     Ok(results)
 }
 
-fn made(shown: &Shown, task: &Task<'_>, town: &Town) -> Made {
-    let Shown { experiment, columns, figures, names_failures } = shown;
+fn made((experiment, columns): Shown, task: &Task<'_>, town: &Town) -> Made {
     let options = Options { map: town.id, ..(task.sized)(experiment.options) };
     let bar = bar(experiment.name);
     let done = |of| step(&bar, of);
     let made = experiment.make(&Campaign { town, options, select: task.select, done: &done });
     bar.finish_and_clear();
     let made = made.map_err(said)?;
-    let failed = made.runs.iter().filter(|run| *names_failures && run.end.is_failure());
+    // Where something is left out a run that fails is no failure of the profile.
+    let names_failures = experiment.name != LEFT_OUT.name;
+    let failed = made.runs.iter().filter(|run| names_failures && run.end.is_failure());
     Ok(Results {
         name: experiment.name,
-        table: tables::rows(&made.rows, columns),
+        table: Rows::new(&made.rows, columns),
         options,
         runs: made.runs.len(),
         json: json(&made)?,
         csv: [csv(&made.rows)?, csv(&made.runs)?],
-        figures: figures(&made),
         failed: failed.cloned().collect(),
     })
-}
-
-/// The names of the files, each there completely or not at all.
-fn write_files(folder: &Path, results: &Results) -> io::Result<Vec<PathBuf>> {
-    let name = results.name;
-    let [rows, runs] = &results.csv;
-    let files = [
-        (format!("{name}.csv"), rows),
-        (format!("{name}-runs.csv"), runs),
-        (format!("{name}.json"), &results.json),
-    ];
-    let figures = results.figures.iter().map(|it| (it.file.clone(), &it.svg));
-    let write = |(name, text): (String, &String)| {
-        files::write(&folder.join(&name), text)?;
-        Ok(PathBuf::from(name))
-    };
-    files.into_iter().chain(figures).map(write).collect()
 }
 
 /// The names of the pages of runs that failed.
@@ -267,41 +225,45 @@ fn page_of(id: &str) -> PathBuf {
     Path::new(REPLAYS).join(format!("{}.html", id.replace('/', "-")))
 }
 
-/// The name of the report. Runs are linked whose pages are there.
-fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result<PathBuf> {
-    let Options { scenarios, vehicles, seed, map, without_precheck } = results.options;
+/// Runs that failed are linked in the report where their pages are there.
+fn leaves<'c>(
+    results: Results,
+    checks: &'c Checks,
+    drawn: BTreeMap<String, String>,
+    folder: Option<&Path>,
+) -> Leaves<'c> {
+    let Results { name, table, options, runs, json, csv: [rows_csv, runs_csv], failed } = results;
+    let Options { scenarios, vehicles, seed, map, without_precheck } = options;
     let on = maps::option(map);
     let asks = if without_precheck { " --without-precheck" } else { "" };
     let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}{on}{asks}");
-    let failed = |run: &Run| {
+    let linked = |run: Run| {
         let page = page_of(&run.id);
-        let page = folder.join(&page).exists().then(|| page.display().to_string());
+        let is_there =
+            drawn.contains_key(&run.id) || folder.is_some_and(|it| it.join(&page).exists());
+        let page = is_there.then(|| page.display().to_string());
         let command = format!("mufasa evaluate replay --run {} {size}", run.id);
-        FailedRun { id: run.id.clone(), end: run.end, page, command }
+        FailedRun { id: run.id, end: run.end, page, command }
     };
     let section = Section {
-        name: results.name,
-        command: format!("mufasa evaluate {} {size}", results.name),
+        name,
+        command: format!("mufasa evaluate {name} {size}"),
         settings: vec![
             ("Scenarios", scenarios.to_string()),
             ("other vehicles", vehicles.to_string()),
             ("seed", seed.to_string()),
             ("map", map.to_string()),
-            ("runs", results.runs.to_string()),
+            ("runs", runs.to_string()),
             ("mufasa", env!("CARGO_PKG_VERSION").to_owned()),
         ],
-        table: &results.table,
-        figures: &results.figures,
-        failed: results.failed.iter().map(failed).collect(),
+        failed: failed.into_iter().map(linked).collect(),
         checks: Some(checks),
     };
-    report::write(folder, &section)?;
-    Ok(PathBuf::from(report::FILE))
-}
-
-fn put(file: &Path, results: &Results) -> io::Result<()> {
-    let name = table_name(results.name, results.options.map);
-    document::write(file, &name, &results.table.markdown())
+    let texts = [(".csv", rows_csv), ("-runs.csv", runs_csv), (".json", json)];
+    let texts = texts.map(|(end, text)| (PathBuf::from(format!("{name}{end}")), text));
+    let pages = drawn.into_iter().map(|(id, page)| (page_of(&id), page));
+    let files = texts.into_iter().chain(pages).collect();
+    Leaves { table, place: table_name(name, map), files, section: Some(section) }
 }
 
 /// What the table of an experiment is called in a document.

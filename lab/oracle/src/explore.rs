@@ -5,7 +5,6 @@ pub mod chart;
 pub mod evidence;
 pub mod findings;
 pub mod report;
-pub mod tables;
 pub mod vector;
 
 use std::io::{self, Write};
@@ -14,9 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use mufasa_exploration::bounds::{Bounds, World};
-use mufasa_exploration::moves::Move;
 use mufasa_exploration::properties::Property;
-use mufasa_exploration::replay;
 use mufasa_exploration::run::{self, PropertyOutcome, WorldOutcome};
 use mufasa_exploration::search::Progress;
 use mufasa_exploration::second;
@@ -28,6 +25,9 @@ use crate::document;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_records::names;
+
+/// Width of a table, characters.
+const WIDTH: u16 = 118;
 
 /// Name of the tables in a document.
 pub fn table_name(bounds: Bounds) -> String {
@@ -101,13 +101,14 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
             }
         }
         writeln!(out, "{}, {} bounds", names::profile(*profile), settings.bounds.name())?;
-        writeln!(out, "{}", tables::worlds(&outcomes))?;
-        writeln!(out, "{}", tables::properties(*profile, &outcomes))?;
+        let report = ExplorationReport::new(*profile, settings.bounds, &outcomes);
+        writeln!(out, "{}", report.worlds().text(None))?;
+        writeln!(out, "{}", report.properties().text(Some(WIDTH)))?;
         end = end.max(judge(*profile, &outcomes, err));
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
         }
-        reports.push(ExplorationReport::new(*profile, settings.bounds, &outcomes));
+        reports.push(report);
         match findings::stories(*profile, &outcomes) {
             Ok(stories) => {
                 let written = findings::write(&settings.folder, &stories);
@@ -187,7 +188,7 @@ pub fn serve(
     }
     writeln!(out, "{}: http://{address} until ended", title(world, *profile))?;
     out.flush()?;
-    second::serve(&system, address, draw);
+    second::serve(&system, address);
     Ok(End::Holds)
 }
 
@@ -287,12 +288,6 @@ fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl W
         }
     }
     end
-}
-
-/// The chart of a trace, for the explorer page.
-fn draw(system: &System, trace: &[Move]) -> Option<String> {
-    let episodes = replay::walk(system, trace).ok()?;
-    Some(chart::draw(system, &title(system.world(), system.profile()), "", &episodes))
 }
 
 /// Profile and world.

@@ -10,5 +10,6 @@ mod limits;
 mod link;
 pub mod parameters_file;
 pub mod prove;
+mod rows;
 pub mod schemas;
 mod spelling;

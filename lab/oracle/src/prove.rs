@@ -3,6 +3,7 @@
 
 pub mod claim;
 pub mod engines;
+pub mod required;
 pub mod settings;
 pub mod sources;
 pub mod tables;
@@ -17,6 +18,7 @@ use crate::spelling::near;
 use claim::{Claim, Status};
 use engines::ClaimSource;
 use mufasa_drives::check::complain;
+use mufasa_proofs::OVERFLOW_PANICS;
 use mufasa_records::files;
 pub use settings::Settings;
 
@@ -38,7 +40,9 @@ pub enum End {
     /// Whatever was run is proved, or tested where no engine proves it.
     #[default]
     Proved,
-    /// Something that should hold is refuted or not known.
+    /// A required claim is not proved, because its engine is missing.
+    LeftOut,
+    /// Something that should hold is refuted or not known, or a required claim is not proved by an engine that is here.
     NotProved,
     /// No line has such a name, a file could not be read or written, or an engine broke down.
     BadInput,
@@ -46,25 +50,49 @@ pub enum End {
 
 impl End {
     /// The exit code.
-    pub fn code(self) -> u8 {
-        self as u8
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Proved => 0,
+            Self::NotProved => 1,
+            Self::BadInput => 2,
+            Self::LeftOut => 4,
+        }
     }
 }
 
 /// Runs the engines, writes the table to `out` and what is wrong to `err`. Errors are those of
 /// writing to `out`.
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
-    let is_known = known(&settings.names)
+    let required = known(&settings.names)
         .and_then(|()| document::has_place(settings.into.as_deref(), TABLE_NAME))
-        .and_then(|()| files_are_there(settings));
-    if let Err(message) = is_known {
-        complain(err, &message);
-        return Ok(End::BadInput);
+        .and_then(|()| is_of_a_vehicle(settings))
+        .and_then(|()| files_are_there(settings))
+        .and_then(|()| settings.required.as_deref().map(required::read).transpose());
+    let required = match required {
+        Ok(required) => required,
+        Err(message) => {
+            complain(err, &message);
+            return Ok(End::BadInput);
+        }
+    };
+    let is_wanted = |source: ClaimSource, claim: &Claim| match &required {
+        Some(ids) => ids.contains(&claim.id),
+        None => source.is_wanted(&settings.names, claim),
+    };
+    match engines::missing(settings, &is_wanted) {
+        // A document has the number of claims that were not run of each engine.
+        Ok(missing) if !settings.markdown => write!(out, "{}", tables::missing(&missing))?,
+        Ok(_) => {}
+        Err(problem) => {
+            complain(err, &problem.to_string());
+            return Ok(End::BadInput);
+        }
     }
+    out.flush()?;
     let mut lines = Vec::new();
     let mut end = End::default();
     for source in ClaimSource::ALL {
-        match source.lines(settings, &bar(source)) {
+        match source.lines(settings, &is_wanted, &bar(source)) {
             Ok(more) => lines.extend(more),
             Err(problem) => {
                 complain(err, &format!("{}: {problem}", source.name()));
@@ -74,6 +102,11 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     }
     if lines.iter().any(|line| matches!(line.answer.status, Status::Refuted | Status::Unknown)) {
         end = end.max(End::NotProved);
+    }
+    if let (Some(ids), Some(path)) = (&required, &settings.required) {
+        let (summary, found) = required::summary(path, ids, &lines);
+        write!(out, "{summary}")?;
+        end = end.max(found);
     }
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
     write!(out, "{table}")?;
@@ -104,6 +137,18 @@ fn files_are_there(settings: &Settings) -> Result<(), String> {
         std::fs::create_dir_all(folder).map_err(cannot)?;
     }
     files::prepare_file(out).map_err(cannot)
+}
+
+/// Whether what is run natively is the code of a vehicle, if it is for a document: in the builds of tests an overflow
+/// panics, in those of a vehicle it wraps.
+fn is_of_a_vehicle(settings: &Settings) -> Result<(), String> {
+    match &settings.into {
+        Some(path) if OVERFLOW_PANICS => Err(format!(
+            "{}: not written by this build, in which an overflow panics; in a vehicle it wraps: cargo run --release",
+            path.display()
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Whether something has each of these names. Errors, in words: the first that nothing has, with the one that is near.

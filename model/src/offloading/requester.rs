@@ -31,7 +31,9 @@ pub struct Requester {
     /// The current offers by station.
     offers: BTreeMap<i64, Groups>,
     area: Groups,
-    /// Number of the last request; 0 before the first.
+    /// Sessions are numbered on from this number.
+    first_session: i64,
+    /// Number of the last request; that number before the first.
     last_session: i64,
     /// The session of the last request to each station for each group. Sessions are numbered in
     /// the order of the requests, so the smallest one is the oldest request.
@@ -51,10 +53,24 @@ impl Requester {
             hold_until_ns: None,
             offers: BTreeMap::new(),
             area: Groups::ALL,
+            first_session: 0,
             last_session: 0,
             last_asked: BTreeMap::new(),
             foreign_data: Count(0),
         }
+    }
+
+    /// The same before its first request, with sessions numbered on from this number, at least 0.
+    /// `spec/monitor.md` [MON-28].
+    #[must_use]
+    pub fn numbered_on_from(self, last_session: i64) -> Self {
+        Self { first_session: last_session, last_session, ..self }
+    }
+
+    /// The program that runs the requester begins a hold: `hold_until` becomes the later of its old value
+    /// and this time, ns. `spec/2-offloading.md#fallback`.
+    pub fn hold_at_least(&mut self, until_ns: i64) {
+        self.hold_until_ns = Some(self.hold_until_ns.map_or(until_ns, |old| old.max(until_ns)));
     }
 
     /// Takes one event and returns the actions in the order in which they are taken.
@@ -143,15 +159,16 @@ impl Requester {
             .filter_map(|group| self.group(*group).partner())
             .map(|p| p.1)
             .collect();
-        let numbered = |session: &i64| (1..=self.last_session).contains(session);
+        let numbered =
+            |session: &i64| (self.first_session + 1..=self.last_session).contains(session);
         let asked: BTreeSet<&i64> = self.last_asked.values().collect();
         Group::ALL.iter().all(|group| self.is_group_valid(*group))
             && sessions.iter().all(numbered)
             && (sessions.len() < 2 || sessions[0] != sessions[1])
             && asked.iter().all(|session| numbered(session))
             && asked.len() == self.last_asked.len()
-            && self.last_session >= 0
-            && (self.last_session == 0 || asked.contains(&self.last_session))
+            && (0..=self.last_session).contains(&self.first_session)
+            && (self.last_session == self.first_session || asked.contains(&self.last_session))
     }
 
     /// Whoever is asked or runs the group offers it, in the area, and was the last to be asked;

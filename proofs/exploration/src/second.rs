@@ -9,21 +9,17 @@ use std::sync::Arc;
 
 use enumset::EnumSet;
 use mufasa_model::services::configuration::Offloadable;
-use stateright::{Checker, Model, Path};
+use stateright::{Checker, Model};
 
 use super::moves::Move;
 use super::properties::Property;
 use super::state::State;
 use super::system::System;
 
-/// Draws the moves from the start to a state as an SVG document.
-pub type Draw = fn(&System, &[Move]) -> Option<String>;
-
 /// A system as stateright wants it.
 #[derive(Clone)]
 pub struct Twin {
     system: Arc<System>,
-    draw: Draw,
 }
 
 /// A state with the properties that the step to it broke. Such a state has no successor.
@@ -46,7 +42,7 @@ pub struct Confirmation {
 
 /// Explores the system with stateright.
 pub fn explore(system: &Arc<System>, threads: usize) -> Confirmation {
-    let twin = Twin { system: Arc::clone(system), draw: |_, _| None };
+    let twin = Twin { system: Arc::clone(system) };
     let checker = twin.checker().threads(threads).spawn_bfs().join();
     let found = checker.discoveries();
     let properties =
@@ -59,8 +55,8 @@ pub fn explore(system: &Arc<System>, threads: usize) -> Confirmation {
 }
 
 /// Serves stateright's explorer page until the process ends.
-pub fn serve(system: &Arc<System>, address: impl ToSocketAddrs, draw: Draw) {
-    let twin = Twin { system: Arc::clone(system), draw };
+pub fn serve(system: &Arc<System>, address: impl ToSocketAddrs) {
+    let twin = Twin { system: Arc::clone(system) };
     let _ = twin.checker().serve(address);
 }
 
@@ -97,10 +93,6 @@ impl Model for Twin {
     fn format_step(&self, seen: &Seen, by: Move) -> Option<String> {
         let next = self.system.apply(&self.state(seen), by)?;
         Some(self.system.describe(&next.state))
-    }
-
-    fn as_svg(&self, path: Path<Seen, Move>) -> Option<String> {
-        (self.draw)(&self.system, &path.into_actions())
     }
 
     fn properties(&self) -> Vec<stateright::Property<Self>> {

@@ -67,5 +67,8 @@ fn the_document_names_the_harnesses_of_the_file() {
     let expected = expected::expected();
     let listed: BTreeSet<&str> = expected.iter().map(|one| one.id.as_str()).collect();
     assert!(listed.len() > 20);
-    assert_eq!(named, listed, "the table is old: cargo run -- prove --into docs/proofs.md");
+    assert_eq!(
+        named, listed,
+        "the table is old: cargo run --release -- prove --into docs/proofs.md"
+    );
 }

@@ -3,6 +3,8 @@
 
 pub mod composition;
 pub mod cycle;
+pub mod event;
+pub mod monitor;
 pub mod offloading;
 pub mod parameters;
 pub mod value;
@@ -43,6 +45,18 @@ impl<T: Recorded> Recorded for Vec<T> {
 
     fn of_model(model: &Self::Model) -> Self {
         model.iter().map(T::of_model).collect()
+    }
+}
+
+impl<T: Recorded> Recorded for Box<T> {
+    type Model = Box<T::Model>;
+
+    fn into_model(self) -> Self::Model {
+        Box::new((*self).into_model())
+    }
+
+    fn of_model(model: &Self::Model) -> Self {
+        Self::new(T::of_model(model))
     }
 }
 

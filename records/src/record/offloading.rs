@@ -5,17 +5,13 @@ use mufasa_model::offloading::requester as model;
 use mufasa_model::report::InvalidInput;
 use mufasa_model::services::configuration::{Group, Groups};
 use schemars::JsonSchema;
-use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use super::cycle::hardened;
+use super::event::{bounded, events, given};
 use super::parameters::ProtocolParameters;
 use super::value::{Integer, Word};
-use super::{Recorded, from_object, record};
-use crate::names::Words;
-
-/// Largest number of events (`spec/4-arithmetic.md#domain`).
-const MAX_EVENTS: usize = 10_000;
+use super::{Recorded, record};
 
 /// What one requester lives through.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +42,7 @@ record! {
         #[serde(default)]
         parameters: ProtocolParameters,
         /// Events in order.
-        #[serde(deserialize_with = "events")]
+        #[serde(deserialize_with = "bounded")]
         events: Vec<Event>,
     } + {
         /// The kind of the record.
@@ -106,105 +102,8 @@ impl Recorded for GroupList {
     }
 }
 
-/// The fields of all types of events, in the order in which errors name them. Which type has
-/// which is known when all of them are read.
-macro_rules! events {
-    (
-        fields { $($any:ident: $any_type:ty,)* }
-        $($type:ident = $word:literal $(($key:ident: $key_type:ty as $model:ident))? { $($field:ident: $field_type:ty),* })*
-    ) => {
-        /// What happens at the requester.
-        #[derive(Clone, Debug, JsonSchema, Serialize)]
-        #[serde(tag = "type")]
-        #[expect(missing_docs, reason = "documented at the requester of `mufasa_model`")]
-        pub enum Event {
-            $(#[serde(rename = $word)]
-            $type { t_ns: Integer, $($key: $key_type,)? $($field: $field_type),* },)*
-        }
-
-        #[derive(Deserialize)]
-        #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-        struct Fields {
-            t_ns: Integer,
-            r#type: Word<Type>,
-            $(#[serde(default, deserialize_with = "given")]
-            $any: Option<$any_type>,)*
-        }
-
-        from_object!(Fields);
-
-        #[derive(Clone, Copy)]
-        enum Type {
-            $($type),*
-        }
-
-        impl Words for Type {
-            const NAME: &'static str = "Type";
-            const DESCRIPTION: &'static str = "What happens.";
-            const ALL: &'static [Self] = &[$(Self::$type),*];
-
-            fn word(self) -> &'static str {
-                match self {
-                    $(Self::$type => $word),*
-                }
-            }
-        }
-
-        /// The type of an event.
-        pub fn event_type(event: &model::Event) -> &'static str {
-            match event.kind {
-                $(model::EventKind::$type { .. } => $word,)*
-            }
-        }
-
-        impl<'de> Deserialize<'de> for Event {
-            fn deserialize<D: Deserializer<'de>>(json: D) -> Result<Self, D::Error> {
-                let mut fields = <Fields as Deserialize>::deserialize(json)?;
-                let t_ns = fields.t_ns;
-                let event = match fields.r#type.0 {
-                    $(Type::$type => Self::$type {
-                        t_ns,
-                        $($key: taken(&mut fields.$key, stringify!($key))?,)?
-                        $($field: taken(&mut fields.$field, stringify!($field))?,)*
-                    },)*
-                };
-                $(if fields.$any.is_some() {
-                    return Err(Error::unknown_field(stringify!($any), &[]));
-                })*
-                Ok(event)
-            }
-        }
-
-        impl Recorded for Event {
-            type Model = model::Event;
-
-            fn into_model(self) -> model::Event {
-                match self {
-                    $(Self::$type { t_ns: Integer(t_ns), $($field,)* $($key)? } => model::Event {
-                        t_ns,
-                        kind: model::EventKind::$type {
-                            $($field: $field.into_model(),)*
-                            $($model: $key.into_model())?
-                        },
-                    },)*
-                }
-            }
-
-            fn of_model(model: &model::Event) -> Self {
-                let t_ns = Integer(model.t_ns);
-                match &model.kind {
-                    $(model::EventKind::$type { $($field,)* $($model)? } => Self::$type {
-                        t_ns,
-                        $($field: Recorded::of_model($field),)*
-                        $($key: Recorded::of_model($model))?
-                    },)*
-                }
-            }
-        }
-    };
-}
-
 events! {
+    "Event": "What happens at the requester."
     fields {
         station: Integer<1>,
         group: Word<Group>,
@@ -223,39 +122,4 @@ events! {
     Reject = "reject" { station: Integer<1>, group: Word<Group>, session: Integer }
     Data = "data" { station: Integer<1>, group: Word<Group>, session: Integer, generated_ns: Integer }
     Verdict = "verdict" (verdict: Word<bool> as safe) { sessions: Sessions }
-}
-
-/// A field that is there is not null.
-fn given<'de, T: Deserialize<'de>, D: Deserializer<'de>>(json: D) -> Result<Option<T>, D::Error> {
-    T::deserialize(json).map(Some)
-}
-
-fn taken<T, E: Error>(field: &mut Option<T>, name: &'static str) -> Result<T, E> {
-    field.take().ok_or_else(|| Error::missing_field(name))
-}
-
-/// Reads no more events than there may be.
-fn events<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<Event>, D::Error> {
-    struct Events;
-    impl<'de> Visitor<'de> for Events {
-        type Value = Vec<Event>;
-
-        fn expecting(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-            out.write_str("a list")
-        }
-
-        fn visit_seq<S: SeqAccess<'de>>(self, mut list: S) -> Result<Vec<Event>, S::Error> {
-            let mut events = Vec::new();
-            while let Some(event) = list.next_element()? {
-                events.push(event);
-                if events.len() > MAX_EVENTS {
-                    return Err(Error::custom(format_args!(
-                        "must hold at most {MAX_EVENTS} events"
-                    )));
-                }
-            }
-            Ok(events)
-        }
-    }
-    json.deserialize_seq(Events)
 }

@@ -127,6 +127,75 @@ overrides! {
     } + {}
 }
 
+macro_rules! all_parameters {
+    ($($(#[$doc:meta])* $name:ident: $type:ident = $default:literal in $domain:expr;)*) => {
+        /// The parameters of the stages and of the protocol.
+        #[derive(Clone, Debug, PartialEq)]
+        #[expect(missing_docs, reason = "documented in `mufasa_model`")]
+        pub struct All {
+            $(pub $name: $type,)*
+            pub t_wait_ns: i64,
+            pub request_timeout_ns: i64,
+            pub l_max_ns: i64,
+            pub dt_max_ns: i64,
+            pub qos_hold: bool,
+        }
+
+        impl All {
+            /// Both in one.
+            pub fn of(stages: &stages::Parameters, protocol: &protocol::Parameters) -> Self {
+                let stages::Parameters { $($name),* } = stages.clone();
+                let protocol::Parameters {
+                    t_wait_ns,
+                    request_timeout_ns,
+                    l_max_ns,
+                    dt_max_ns,
+                    qos_hold,
+                } = *protocol;
+                Self { $($name,)* t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold }
+            }
+
+            /// Those of the stages.
+            pub fn stages(&self) -> stages::Parameters {
+                stages::Parameters { $($name: self.$name),* }
+            }
+        }
+
+        overrides! {
+            /// Overrides of single defaults; times of the protocol in ns from 0 on.
+            MonitorParameters = All {
+                $($(#[$doc])* $name: $type,)*
+                /// Waiting time after a safety issue.
+                t_wait_ns: i64,
+                /// Time in which a request is to be confirmed.
+                request_timeout_ns: i64,
+                /// Largest latency.
+                l_max_ns: i64,
+                /// Largest inter-arrival time.
+                dt_max_ns: i64,
+                /// Whether a violation of quality of service starts the waiting time too (I-09).
+                qos_hold: bool,
+            } + {}
+        }
+    };
+}
+
+mufasa_model::parameters!(all_parameters);
+
+impl Default for All {
+    fn default() -> Self {
+        Self::of(&stages::Parameters::default(), &protocol::Parameters::default())
+    }
+}
+
+impl All {
+    /// Those of the protocol.
+    pub fn protocol(&self) -> protocol::Parameters {
+        let &Self { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold, .. } = self;
+        protocol::Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold }
+    }
+}
+
 impl StageParameters {
     /// Whether the times of the protocol are in their domain.
     pub fn check(&self) -> Result<(), InvalidInput> {

@@ -63,12 +63,13 @@ impl Question {
         }
     }
 
-    /// What a record asks; `None` when it is none.
+    /// What a record asks; `None` when it is none, or a sequence of the monitor, which no campaign asks yet.
     pub fn of_line(line: &str) -> Option<Self> {
         Some(match parse(line.as_bytes(), 1).ok()? {
             Record::Cycle { cycle, .. } => Self::Cycle(cycle),
             Record::Offloading { trace, .. } => Self::Offloading(trace),
             Record::Composition { task, .. } => Self::Composition(task),
+            Record::Monitor { .. } => return None,
         })
     }
 

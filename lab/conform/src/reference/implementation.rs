@@ -44,6 +44,12 @@ fn decide(record: Record) -> Result<Value, (String, InvalidInput)> {
                 Err((id, InvalidInput { field: String::from("events"), index: None, message }))
             }
         },
+        Record::Monitor { id, .. } => {
+            let message = String::from(
+                "sequences of the monitor are answered by the model alone: leave out --implementation",
+            );
+            Err((id, InvalidInput { field: String::from("kind"), index: None, message }))
+        }
         Record::Composition { id, .. } => {
             let message = String::from(
                 "the implementation checks compositions and finds none: leave out --implementation",

@@ -216,6 +216,7 @@ impl Authored {
             (Record::Cycle { cycle, .. }, None) => Asked::Cycle(cycle),
             (Record::Offloading { trace, .. }, _) => Asked::Trace(trace),
             (Record::Composition { task, .. }, _) => Asked::Task(task),
+            (Record::Monitor { sequence, .. }, _) => Asked::Sequence(sequence),
         };
         book.add(topic, (name, note), asked, expected);
         Ok(())

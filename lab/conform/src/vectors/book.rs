@@ -13,8 +13,9 @@ use crate::vectors::expected::Expected;
 use crate::vectors::flag::{self, Flag};
 use mufasa_records::record::Recorded;
 use mufasa_records::record::composition::Composition;
+use mufasa_records::record::monitor::Monitor;
 use mufasa_records::record::offloading::Offloading;
-use mufasa_records::{self as json, Answer, Trace, cycle_to_line};
+use mufasa_records::{self as json, Answer, Sequence, Trace, cycle_to_line};
 
 /// What is added to the note of a cycle that an implementation may answer either way.
 pub const STAYS: &str = "Stays, though an implementation may answer otherwise here (the strict \
@@ -141,6 +142,8 @@ pub enum Asked<'a> {
     Trace(&'a Trace),
     /// A composition.
     Task(&'a Task),
+    /// A sequence of the monitor.
+    Sequence(&'a Sequence),
     /// A line that is refused, whatever the profile.
     Line(&'a str),
 }
@@ -162,16 +165,29 @@ impl Asked<'_> {
                 let record = Composition { id: id.to_owned(), ..Recorded::of_model(task) };
                 (Flag::Must, text(serde_json::to_string(&record)))
             }
+            Self::Sequence(sequence) => (
+                flag::of_sequence(sequence),
+                text(serde_json::to_string(&Monitor::whole(id, sequence))),
+            ),
             Self::Line(line) => (Flag::Must, Input::Line(line.to_owned())),
         }
     }
 
     /// Whether exact and strict model differ.
     fn may_be_answered_otherwise(self) -> bool {
-        let Self::Cycle(cycle) = self else { return false };
-        let [exact, strict] = [Reading::Exact, Reading::Strict]
-            .map(|reading| check(cycle, reading).map(|report| report.failed_stage));
-        exact != strict
+        let readings = [Reading::Exact, Reading::Strict];
+        match self {
+            Self::Cycle(cycle) => {
+                let [exact, strict] =
+                    readings.map(|reading| check(cycle, reading).map(|report| report.failed_stage));
+                exact != strict
+            }
+            Self::Sequence(sequence) => {
+                let [exact, strict] = readings.map(|reading| flag::decisions(sequence, reading));
+                exact != strict
+            }
+            Self::Broken(..) | Self::Trace(_) | Self::Task(_) | Self::Line(_) => false,
+        }
     }
 }
 

@@ -6,8 +6,10 @@ use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Reading};
 
-use mufasa_records::Trace;
+use mufasa_records::monitor_answer::{self, MonitorState};
 use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::{Sequence, Trace};
+use serde_json::Value;
 
 /// Whom a vector binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +47,31 @@ pub fn of_trace(trace: &Trace) -> Flag {
     let other = Trace { profile: other(trace.profile), ..trace.clone() };
     let run = |trace| OffloadingAnswer::run(String::new(), trace);
     if run(trace) == run(&other) { Flag::Must } else { only(trace.profile) }
+}
+
+/// The flag of a sequence: whether the other profile gives another answer anywhere. One that is refused in
+/// the other profile binds its own.
+pub fn of_sequence(sequence: &Sequence) -> Flag {
+    let other = Sequence { profile: other(sequence.profile), ..sequence.clone() };
+    let same = [Reading::Exact, Reading::Strict]
+        .iter()
+        .all(|reading| decisions(sequence, *reading) == decisions(&other, *reading));
+    if same { Flag::Must } else { only(sequence.profile) }
+}
+
+/// What a sequence is answered in a reading, without witnesses; `Err` is the setting that is refused.
+pub fn decisions(sequence: &Sequence, reading: Reading) -> Result<Vec<Value>, String> {
+    let answers = monitor_answer::answers(sequence, reading).map_err(|problem| problem.field)?;
+    let plain = |answer| {
+        // Answers are plain data: they always become JSON.
+        let mut state = serde_json::to_value(MonitorState::new(answer)).unwrap_or_default();
+        for place in ["/decision", "/decision/brake"] {
+            let object = state.pointer_mut(place).and_then(Value::as_object_mut);
+            object.map(|object| object.remove("witness"));
+        }
+        state
+    };
+    Ok(answers.into_iter().map(plain).collect())
 }
 
 /// The other profile.

@@ -60,6 +60,8 @@ fn killed(vector: &Vector) -> Vec<&'static str> {
         }
         Some(Record::Offloading { trace, .. }) => others::of_trace(&trace),
         Some(Record::Composition { task, .. }) => others::of_task(&task),
+        // None yet: a vector of the monitor fails here.
+        Some(Record::Monitor { .. }) => Vec::new(),
         None => others::of_line(vector.input.text()),
     }
 }

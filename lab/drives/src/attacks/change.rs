@@ -5,9 +5,9 @@ use mufasa_model::input::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 use super::catalogue::Attack;
 use super::objects;
 use super::planner::Planner;
-use super::time::seconds;
 use crate::geometry::Polyline;
 use crate::readers::error::ReadError;
+use crate::seconds;
 
 /// The first attacked cycle.
 pub(super) struct Onset {
@@ -55,7 +55,7 @@ impl Onset {
     }
 
     fn time_s(&self, cycle: &Cycle) -> f64 {
-        seconds(cycle.now_ns.saturating_sub(self.now_ns))
+        seconds(self.now_ns, cycle.now_ns)
     }
 }
 

@@ -8,9 +8,9 @@ use super::error::InjectError;
 use super::injection::Injection;
 use super::meeting;
 use super::planner::driven_line;
-use super::time::seconds;
 use crate::drive::Stream;
 use crate::readers::error::ReadError;
+use crate::seconds;
 
 /// What an attack does to a drive.
 pub(super) struct Course {
@@ -86,7 +86,7 @@ impl<'d> Pass<'d> {
     fn take(&mut self, index: usize, clean: &Cycle) -> Result<bool, ReadError> {
         let Injection { attack, from_s, to_s } = self.injection;
         let start_ns = *self.start_ns.get_or_insert(clean.now_ns);
-        let at_s = seconds(clean.now_ns.saturating_sub(start_ns));
+        let at_s = seconds(start_ns, clean.now_ns);
         let in_span = (from_s..=to_s).contains(&at_s);
         self.span.end_s = at_s;
         if in_span {

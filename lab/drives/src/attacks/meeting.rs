@@ -2,15 +2,15 @@
 
 use mufasa_model::input::cycle::{Cycle, Track};
 
-use super::time::seconds;
 use crate::geometry::{Rectangle, add, scale};
+use crate::seconds;
 
 /// A collision of the attacked CAV with an object that the CAV of the clean drive does not touch in
 /// that cycle, as a note; `at_s` is the cycle's time. The objects are the tracks of the clean drive,
 /// moved on to the cycle's time.
 pub(super) fn note(attacked: &Cycle, clean: &Cycle, at_s: f64) -> Option<String> {
     let tracks = clean.tracks.as_ref()?;
-    let later = seconds(clean.now_ns.saturating_sub(tracks.stamp_ns));
+    let later = seconds(tracks.stamp_ns, clean.now_ns);
     let met = tracks.items.iter().find(|track| {
         let object = object(track, later);
         cav(attacked).meets(&object) && !cav(clean).meets(&object)

@@ -18,7 +18,6 @@ pub mod injection;
 mod meeting;
 mod objects;
 mod planner;
-mod time;
 
 use crate::attacks::change::apply;
 use crate::attacks::course::Course;

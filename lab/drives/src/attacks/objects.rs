@@ -2,8 +2,8 @@
 
 use mufasa_model::input::cycle::{Cycle, Track};
 
-use super::time::seconds;
 use crate::geometry::{Point, Polyline, add, cross, distance, dot, norm, scale, sub};
+use crate::seconds;
 
 /// Slower than this an object stands, m/s.
 const MOVING: f64 = 1.0;
@@ -32,7 +32,7 @@ pub(super) fn target(
     }
     let far = |track: &Track| {
         let at = trajectory.points.iter().map(|point| {
-            let later = seconds(point.t_ns.saturating_sub(tracks.stamp_ns));
+            let later = seconds(tracks.stamp_ns, point.t_ns);
             let there = add(place(track), scale(velocity(track), later));
             let (off, heading) = (sub(there, [point.x, point.y]), [point.cos, point.sin]);
             let (ahead, aside) = (dot(heading, off), cross(heading, off).abs());

@@ -87,7 +87,7 @@ impl Seen<'_> {
 
     /// Another time since the first cycle, s.
     pub fn seconds_of(&self, time_ns: i64) -> f64 {
-        super::words::seconds(self.start_ns, time_ns)
+        crate::seconds(self.start_ns, time_ns)
     }
 
     /// The answers of model and implementation.

@@ -8,7 +8,6 @@ pub mod pictures;
 pub mod records;
 pub mod report;
 mod requesters;
-mod sheet;
 pub mod sides;
 pub mod steps;
 pub mod table;

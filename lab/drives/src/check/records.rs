@@ -1,6 +1,5 @@
 //! What was found as JSON Lines: one record per cycle, one per drive, one at the end.
 
-use std::cell::RefCell;
 use std::io::{self, Write};
 
 use mufasa_model::report::{InvalidInput, Report, Stage};
@@ -15,10 +14,10 @@ use super::checked::{Checked, Seen};
 use super::fallback::{Hold, RequesterRun};
 use super::findings::Findings;
 use super::judge::Judged;
-use super::sheet::Sheet;
 use super::tally::Tally;
 use super::words;
 use crate::drive::DriveCycle;
+use crate::spool::Spool;
 use mufasa_records::answer::CycleAnswer;
 use mufasa_records::{names, schema};
 
@@ -142,9 +141,9 @@ pub fn schemas() -> [(&'static str, Value); 3] {
 /// The records of a drive, kept while its cycles are judged.
 #[derive(Default)]
 pub struct Records {
-    cycles: Sheet,
+    cycles: Spool,
     /// Of the model and of the implementation.
-    fallbacks: [Sheet; 2],
+    fallbacks: [Spool; 2],
 }
 
 impl Records {
@@ -160,12 +159,12 @@ impl Records {
             alone: judged.alone.iter().copied().map(names::stage).collect(),
             disagreement: judged.disagreement.as_ref().map(ToString::to_string),
         };
-        self.cycles.line(&serde_json::to_string(&record)?)?;
-        for (sheet, (hold, answer)) in
-            self.fallbacks.iter_mut().zip(seen.holds.into_iter().zip(seen.answers()))
+        self.cycles.keep(0, &serde_json::to_vec(&record)?)?;
+        for (spool, (hold, answer)) in
+            self.fallbacks.iter().zip(seen.holds.into_iter().zip(seen.answers()))
         {
             if let Some(hold) = hold {
-                sheet.line(&serde_json::to_string(&fallback(seen, hold, answer))?)?;
+                spool.keep(0, &serde_json::to_vec(&fallback(seen, hold, answer))?)?;
             }
         }
         Ok(())
@@ -173,7 +172,7 @@ impl Records {
 
     /// Writes the records, each on a line: the cycles, then the drive. Errors: of writing, or what was
     /// kept cannot be read again.
-    pub fn write(mut self, out: &mut impl Write, checked: &Checked) -> io::Result<()> {
+    pub fn write(self, out: &mut impl Write, checked: &Checked) -> io::Result<()> {
         self.cycles.copy(out)?;
         let Checked { drive, tallies, requesters, .. } = checked;
         let [model, implementation] = self.fallbacks;
@@ -195,15 +194,15 @@ impl Records {
 }
 
 /// Records that were kept as they are written.
-struct Kept(RefCell<Sheet>);
+struct Kept(Spool);
 
 impl Serialize for Kept {
     fn serialize<S: Serializer>(&self, json: S) -> Result<S::Ok, S::Error> {
-        let mut sheet = self.0.borrow_mut();
-        let mut list = json.serialize_seq(None)?;
-        for line in sheet.lines().map_err(S::Error::custom)? {
-            let record = line.map_err(S::Error::custom).map(RawValue::from_string)?;
-            list.serialize_element(&record.map_err(S::Error::custom)?)?;
+        let mut list = json.serialize_seq(Some(self.0.count()))?;
+        for index in 0..self.0.count() {
+            let (_, line) = self.0.line(index).map_err(S::Error::custom)?;
+            let record = serde_json::from_slice::<&RawValue>(&line);
+            list.serialize_element(record.map_err(S::Error::custom)?)?;
         }
         list.end()
     }
@@ -263,7 +262,7 @@ fn fallback(seen: &Seen<'_>, hold: Hold, answer: &Answer) -> FallbackRecord {
     FallbackRecord { id, seconds, hold, hold_until_ns, why: words::answer(answer) }
 }
 
-fn side(tally: &Tally, run: &RequesterRun, fallbacks: Sheet) -> SideRecord {
+fn side(tally: &Tally, run: &RequesterRun, fallbacks: Spool) -> SideRecord {
     let stages = Stage::ALL.into_iter().zip(&tally.stages).map(|(stage, count)| StageRecord {
         stage: names::stage(stage),
         passed: count.passed,
@@ -283,6 +282,6 @@ fn side(tally: &Tally, run: &RequesterRun, fallbacks: Sheet) -> SideRecord {
         offloaded: run.offloaded,
         late: run.late,
         silent: run.silent,
-        fallbacks: Kept(RefCell::new(fallbacks)),
+        fallbacks: Kept(fallbacks),
     }
 }

@@ -9,10 +9,10 @@ use mufasa_records::names;
 
 use super::checked::{Breach, Checked, Seen};
 use super::fallback::{Hold, RequesterRun};
-use super::sheet::Sheet;
 use super::words;
 use crate::check::table;
 use crate::counted;
+use crate::spool::Spool;
 
 /// The report of a drive, put together while its cycles are judged.
 #[derive(Default)]
@@ -103,7 +103,7 @@ fn write_alone(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
 /// waiting time, but start it, are one.
 #[derive(Default)]
 struct Course {
-    lines: Sheet,
+    lines: Spool,
     alike: Option<Alike>,
 }
 
@@ -124,7 +124,7 @@ impl Course {
             self.close()?;
             let (what, until_s) = (words::answer(answer), seen.seconds_of(until_ns));
             let line = format!("  at {at_s:.1} s: {what}; all local, wait until {until_s:.1} s");
-            return self.lines.line(&line);
+            return self.lines.keep(0, line.as_bytes());
         }
         if self.alike.as_ref().is_some_and(|alike| alike.hold != hold) {
             self.close()?;
@@ -157,7 +157,7 @@ impl Course {
         let stages: Vec<_> =
             stages.iter().map(|((_, name), count)| format!("{name} {count}")).collect();
         let line = format!("  {span}: {count} more unsafe {why} ({})", stages.join(", "));
-        self.lines.line(&line)
+        self.lines.keep(0, line.as_bytes())
     }
 
     fn write(

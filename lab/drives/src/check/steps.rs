@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::offloading::requester::Parameters;
 
-use super::words::seconds;
+use crate::seconds;
 
 /// Times between cycles that follow each other, and ages of their remote data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

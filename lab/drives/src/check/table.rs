@@ -6,19 +6,12 @@ use mufasa_model::report::Stage;
 use crate::check::tally::{StageTally, Tally};
 use crate::check::words;
 
-/// The outcomes by stage, model and implementation side by side.
+/// The outcomes by stage, of the implementation where they are others.
 pub fn by_stage(model: &Tally, implementation: &Tally) -> String {
-    let both = [model, implementation];
-    let left = lines(&stages(model, both, true));
-    let right = lines(&stages(implementation, both, false));
-    let width = left.iter().map(|line| line.chars().count()).max().unwrap_or(0);
-    let label = left[0].find("run").unwrap_or(0);
-    let mut text =
-        format!("{:label$}{:rest$}   implementation\n", "", "model", rest = width - label);
-    for (left, right) in left.iter().zip(&right) {
-        text.extend([&format!("{left:width$} | "), right.trim_end(), "\n"]);
+    if implementation == model {
+        return stages(model);
     }
-    text
+    format!("model\n{}implementation\n{}", stages(model), stages(implementation))
 }
 
 /// A line of the table over all drives.
@@ -96,37 +89,29 @@ fn cells(line: &Line) -> Row {
     Row::from(std::iter::once(line.name.clone()).chain(counts).chain([agreement]))
 }
 
-/// Rows of outcomes; those of the kinds that neither of the two has are left out.
-fn stages(tally: &Tally, both: [&Tally; 2], names: bool) -> Table {
+/// Rows of outcomes, and of failures that belong to no stage, where there are such.
+fn stages(tally: &Tally) -> String {
     let mut table = bare();
-    let head = ["run", "passed", "failed", "skipped", "n/a", "not sched."];
-    table.set_header(named(names, "stage").chain(head.map(String::from)));
+    table.set_header(["stage", "run", "passed", "failed", "skipped", "n/a", "not sched."]);
+    let mut row = |name: &str, counts: [String; 6]| {
+        table.add_row(Row::from(std::iter::once(name.to_owned()).chain(counts)));
+    };
     for (stage, count) in Stage::ALL.into_iter().zip(&tally.stages) {
         let StageTally { passed, failed, skipped, not_applicable, not_scheduled } = *count;
         let counts = [count.run(), passed, failed, skipped, not_applicable, not_scheduled];
-        table.add_row(named(names, words::stage(stage)).chain(counts.map(|n| n.to_string())));
+        row(words::stage(stage), counts.map(|n| n.to_string()));
     }
-    for (index, (name, count)) in others(tally).into_iter().enumerate() {
-        if both.iter().any(|tally| others(tally)[index].1 > 0) {
-            let counts = ["", "", &count.to_string(), "", "", ""].map(String::from);
-            table.add_row(named(names, name).chain(counts));
-        }
-    }
-    numbers_right(&mut table, usize::from(names)..usize::from(names) + 6);
-    table
-}
-
-/// Failures that belong to no stage.
-fn others(tally: &Tally) -> [(&'static str, usize); 3] {
-    [
+    for (name, count) in [
         ("no obstacle check", tally.no_obstacle_check),
         ("invalid remote input", tally.input),
         ("invalid local input", tally.errors),
-    ]
-}
-
-fn named(names: bool, name: &str) -> impl Iterator<Item = String> {
-    names.then(|| name.to_owned()).into_iter()
+    ] {
+        if count > 0 {
+            row(name, ["", "", &count.to_string(), "", "", ""].map(String::from));
+        }
+    }
+    numbers_right(&mut table, 1..7);
+    finished(&table)
 }
 
 fn bare() -> Table {
@@ -144,12 +129,8 @@ fn numbers_right(table: &mut Table, columns: std::ops::Range<usize>) {
     }
 }
 
-fn lines(table: &Table) -> Vec<String> {
-    table.to_string().lines().map(str::to_owned).collect()
-}
-
 fn finished(table: &Table) -> String {
-    lines(table).iter().flat_map(|line| [line.trim_end(), "\n"]).collect()
+    table.to_string().lines().flat_map(|line| [line.trim_end(), "\n"]).collect()
 }
 
 #[cfg(test)]
@@ -164,24 +145,17 @@ mod tests {
     }
 
     #[test]
-    fn model_and_implementation_stand_side_by_side() {
-        let text = by_stage(&tally(3), &tally(4));
-        let line = text.lines().find(|line| line.contains("iii")).unwrap();
-        let numbers: Vec<_> =
-            line.split_whitespace().filter(|w| w.parse::<u32>().is_ok()).collect();
-        assert_eq!(numbers, ["10", "7", "3", "0", "0", "0", "10", "6", "4", "0", "0", "0"]);
-        assert!(!text.contains("invalid"));
-        assert_eq!(text.lines().count(), 7);
-    }
-
-    #[test]
-    fn rows_that_only_one_of_the_two_needs_are_shown_for_both() {
-        let remote = Tally { input: 2, ..tally(3) };
-        let text = by_stage(&tally(3), &remote);
-        let line = text.lines().find(|line| line.contains("invalid remote input")).unwrap();
-        let numbers: Vec<_> =
-            line.split_whitespace().filter(|w| w.parse::<u32>().is_ok()).collect();
-        assert_eq!(numbers, ["0", "2"]);
+    fn what_the_implementation_decides_otherwise_has_a_table_of_its_own() {
+        let numbers = |text: &str, row: &str| -> Vec<Vec<u32>> {
+            let lines = text.lines().filter(|line| line.starts_with(row));
+            lines.map(|line| line.split(' ').filter_map(|it| it.parse().ok()).collect()).collect()
+        };
+        let same = by_stage(&tally(3), &tally(3));
+        assert_eq!(numbers(&same, "iii "), [[10, 7, 3, 0, 0, 0]]);
+        assert_eq!((same.lines().count(), same.contains("invalid")), (6, false));
+        let both = by_stage(&tally(3), &Tally { input: 2, ..tally(4) });
+        assert_eq!(numbers(&both, "iii "), [[10, 7, 3, 0, 0, 0], [10, 6, 4, 0, 0, 0]]);
+        assert_eq!(numbers(&both, "invalid remote input"), [[2]]);
     }
 
     #[test]

@@ -5,11 +5,7 @@ use std::cmp::Ordering;
 use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa_props::conformance::{Answer, name};
 
-/// A time after another, s.
-#[expect(clippy::cast_precision_loss)] // to be read by people
-pub(super) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
-    (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
-}
+use crate::seconds;
 
 /// Number and subject of a stage, such as `iii tracks`.
 pub fn stage(stage: Stage) -> &'static str {

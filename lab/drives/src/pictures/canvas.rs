@@ -9,11 +9,6 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// The elements written so far, for a document of another kind.
-    pub fn into_body(self) -> String {
-        self.body
-    }
-
     /// The whole file of a size, px, on white: a title, which is no part of the picture, and what classes look like.
     pub fn document(self, [width, height]: [f64; 2], title: &str, style: &str) -> String {
         format!(
@@ -72,13 +67,6 @@ impl Canvas {
             let [x, y] = way.map(|it| it / length * long);
             let side = |k: f64| Some([to[0] - x - k * y, to[1] - y + k * x]);
             self.polygon(&[Some(to), side(0.45), side(-0.45)], class);
-        }
-    }
-
-    /// Two crossed lines of a class, from their middle so far to each side.
-    pub fn cross(&mut self, [x, y]: [f64; 2], half: f64, class: &str) {
-        for side in [half, -half] {
-            self.polyline(&[Some([x - half, y - side]), Some([x + half, y + side])], class);
         }
     }
 

@@ -6,6 +6,7 @@ use mufasa_model::input::cycle::{
 
 use super::frame::{Frame, Rectangle};
 use super::scene::Scene;
+use crate::seconds;
 
 /// A kind of thing in a picture, for the legend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,12 +109,6 @@ pub fn footprint(cycle: &Cycle, point: &TrajectoryPoint) -> Rectangle {
 /// The square of a cell.
 pub fn cell(grid: &Grid, (column, row): (i64, i64)) -> Rectangle {
     block(grid, [column, row], [1, 1])
-}
-
-/// Difference of two times, s.
-#[expect(clippy::cast_precision_loss)] // of a picture
-pub fn seconds(from_ns: i64, to_ns: i64) -> f64 {
-    (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
 }
 
 /// At most `most` indices below `count`, evenly spread, the last one included.
@@ -259,10 +254,5 @@ mod tests {
         assert_eq!(spread(0, 3).count(), 0);
         assert_eq!(spread(3, 5).collect::<Vec<_>>(), [2, 1, 0]);
         assert_eq!(spread(10, 4).collect::<Vec<_>>(), [9, 6, 3, 0]);
-    }
-
-    #[test]
-    fn differences_of_extreme_times_do_not_overflow() {
-        assert!(seconds(i64::MIN, i64::MAX) > 1.8e10);
     }
 }

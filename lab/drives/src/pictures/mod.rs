@@ -5,7 +5,6 @@ pub mod frame;
 mod layers;
 mod legend;
 pub mod scene;
-pub mod sequence;
 mod witness;
 
 use mufasa_model::input::cycle::Cycle;

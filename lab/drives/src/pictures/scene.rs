@@ -46,20 +46,6 @@ impl Scene {
         Self { frame, canvas: Canvas::default() }
     }
 
-    /// A picture for a document, north up: its middle and its size, m, px per m, and what draws it.
-    pub fn figure(
-        title: &str,
-        middle: [f64; 2],
-        size: [f64; 2],
-        scale: f64,
-        draw: impl FnOnce(&mut Self),
-    ) -> String {
-        let mut scene = Self::new(Frame::north_up(middle, size, scale, [0.0; 2]));
-        draw(&mut scene);
-        let size = scene.frame.size;
-        scene.canvas.document(size, title, STYLE)
-    }
-
     /// An area between places.
     pub fn polygon(&mut self, places: &[[f64; 2]], look: &str) {
         let corners = self.places(places);

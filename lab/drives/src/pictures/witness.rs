@@ -1,4 +1,4 @@
-//! The witness in a strong colour, with a label that covers as little as possible.
+//! The witness in a strong colour, with a label.
 
 use mufasa_model::hardened::h14_fail_safe::path;
 use mufasa_model::input::cycle::{Cycle, TrajectoryPoint};
@@ -6,16 +6,19 @@ use mufasa_model::input::domain::first_problem;
 use mufasa_model::input::scene;
 use mufasa_model::report::{FailedStage, Reading, Report, Rule, Witness};
 
-use super::frame::{Frame, Rectangle};
+use super::frame::Rectangle;
 use super::layers;
 use super::scene::Scene;
 use crate::check::words;
+use crate::seconds;
 use mufasa_records::names;
 
 /// Width of a character of a label, px.
 const CHARACTER: f64 = 7.1;
 /// Height of a label, px.
 const LABEL_HEIGHT: f64 = 24.0;
+/// Between a label and the edges of the map, px.
+const EDGE: f64 = 8.0;
 /// Length of the head of an arrow, px.
 const TIP: f64 = 11.0;
 
@@ -45,7 +48,7 @@ pub fn places(cycle: &Cycle, report: &Report) -> Vec<[f64; 2]> {
     places
 }
 
-/// Draws the witness and its label, clear of the other objects where possible.
+/// Draws the witness and its label.
 pub fn draw(scene: &mut Scene, cycle: &Cycle, report: &Report) {
     let marks = marks(cycle, report);
     let stage = mufasa_props::conformance::name(report.failed_stage);
@@ -69,7 +72,7 @@ pub fn draw(scene: &mut Scene, cycle: &Cycle, report: &Report) {
     if marks.shapes.is_empty() && marks.circles.is_empty() && marks.lines.is_empty() {
         scene.dot(marks.anchor, 16.0, "witness");
     }
-    label(scene, cycle, &marks, &label_text(report));
+    label(scene, &marks, &label_text(report));
     scene.canvas.close();
 }
 
@@ -147,7 +150,7 @@ fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, ma
     let mut objects = Vec::new();
     if let (Some(id), Some(list)) = (witness.track, &cycle.tracks) {
         let predicted = point.filter(|_| witness.rule == Rule::Collision);
-        let later = predicted.map_or(0.0, |point| layers::seconds(list.stamp_ns, point.t_ns));
+        let later = predicted.map_or(0.0, |point| seconds(list.stamp_ns, point.t_ns));
         let track = list.items.iter().find(|track| track.id == id);
         objects.extend(track.map(|track| layers::track(track, later)));
         if later != 0.0 {
@@ -253,69 +256,18 @@ fn gap(cycle: &Cycle, marks: &mut Marks) {
     marks.anchor = end;
 }
 
-/// A label with a line to the anchor, at the place that covers the fewest objects.
-fn label(Scene { canvas, frame }: &mut Scene, cycle: &Cycle, marks: &Marks, text: &str) {
+/// A label at the upper edge of the map, or at the lower one where the anchor is near it, with a line to the anchor.
+fn label(Scene { canvas, frame }: &mut Scene, marks: &Marks, text: &str) {
     let Some(anchor) = frame.at(marks.anchor) else { return };
     #[expect(clippy::cast_precision_loss)] // of a picture
     let width = text.chars().count() as f64 * CHARACTER + 16.0;
-    let covered = covered(frame, cycle, marks);
-    let low = frame.place.map(|it| it + 6.0);
-    let high =
-        [0, 1].map(|axis| frame.place[axis] + frame.size[axis] - 6.0 - [width, LABEL_HEIGHT][axis]);
-    let cost = |corner: &[f64; 2]| {
-        let hits = covered.iter().filter(|[from, to]| {
-            corner[0] < to[0] + 4.0
-                && corner[0] + width > from[0] - 4.0
-                && corner[1] < to[1] + 4.0
-                && corner[1] + LABEL_HEIGHT > from[1] - 4.0
-        });
-        let middle = [corner[0] + width / 2.0, corner[1] + LABEL_HEIGHT / 2.0];
-        // An object covered is worse than any distance on the page.
-        2000.0 * f64::from(u32::try_from(hits.count()).unwrap_or(u32::MAX))
-            + (middle[0] - anchor[0]).hypot(middle[1] - anchor[1])
-    };
-    let offsets = [-260.0, -190.0, -130.0, -80.0, -45.0, 45.0, 80.0, 130.0, 190.0, 260.0];
-    let corners = offsets.iter().flat_map(|dy| {
-        [-0.5, -1.0, 0.0].map(|dx| {
-            [anchor[0] + dx * width + dx.signum() * 20.0, anchor[1] + dy - LABEL_HEIGHT / 2.0]
-        })
-    });
-    let inside = corners.map(|corner| {
-        [0, 1].map(|axis| corner[axis].clamp(low[axis].min(high[axis]), high[axis].max(low[axis])))
-    });
-    let Some(corner) = inside.min_by(|a, b| cost(a).total_cmp(&cost(b))) else { return };
-    let end = [
-        anchor[0].clamp(corner[0], corner[0] + width),
-        if corner[1] > anchor[1] { corner[1] } else { corner[1] + LABEL_HEIGHT },
-    ];
-    canvas.polyline(&[Some(anchor), Some(end)], "leader");
-    canvas.rect(corner, [width, LABEL_HEIGHT], "label");
-    canvas.text(Some([corner[0] + width / 2.0, corner[1] + 16.5]), "label-text", text);
-}
-
-/// Boxes on the page that a label should not cover.
-fn covered(frame: &Frame, cycle: &Cycle, marks: &Marks) -> Vec<[[f64; 2]; 2]> {
-    let ego = &cycle.ego;
-    let mut shapes = marks.shapes.clone();
-    shapes.push(Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]));
-    let tracks = cycle.tracks.iter().flat_map(|list| &list.items);
-    shapes.extend(tracks.map(|track| layers::track(track, 0.0)));
-    let detections = cycle.detections.iter().flat_map(|list| &list.items);
-    shapes.extend(detections.map(layers::detection));
-    let points = cycle.trajectory.iter().flat_map(|it| &it.points);
-    shapes.extend(points.map(|point| layers::footprint(cycle, point)));
-    shapes.iter().filter_map(|shape| bounds(frame, shape)).collect()
-}
-
-fn bounds(frame: &Frame, shape: &Rectangle) -> Option<[[f64; 2]; 2]> {
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    for corner in frame.corners(shape) {
-        let corner = corner?;
-        for axis in 0..2 {
-            low[axis] = low[axis].min(corner[axis]);
-            high[axis] = high[axis].max(corner[axis]);
-        }
-    }
-    Some([low, high])
+    let ([left, top], [wide, high]) = (frame.place, frame.size);
+    let x = (anchor[0] - width / 2.0).clamp(left + EDGE, left + (wide - width - EDGE).max(EDGE));
+    let upper = top + EDGE;
+    let lower = top + high - EDGE - LABEL_HEIGHT;
+    let is_above = anchor[1] > upper + 2.0 * LABEL_HEIGHT;
+    let (y, end) = if is_above { (upper, upper + LABEL_HEIGHT) } else { (lower, lower) };
+    canvas.polyline(&[Some(anchor), Some([anchor[0], end])], "leader");
+    canvas.rect([x, y], [width, LABEL_HEIGHT], "label");
+    canvas.text(Some([x + width / 2.0, y + 16.5]), "label-text", text);
 }

@@ -13,8 +13,7 @@ use crate::drive::{DriveCycle, Stream};
 use crate::options::{Options, Sensor};
 use crate::readers::error::ReadError;
 use crate::readers::source::stem;
-use crate::readers::spool::Spool;
-use crate::temporary::{lost, unkept};
+use crate::spool::Spool;
 
 /// Most bytes of a file without cycles that are looked at for being one document.
 const DOCUMENT: usize = 16 << 20;
@@ -90,7 +89,7 @@ impl Lines<'_> {
                 continue;
             }
             let kept = self.spool.keep(number, &line);
-            kept.map_err(|error| ReadError::file(self.path, unkept(&error)))?;
+            kept.map_err(|error| failed(&error))?;
             self.count += 1;
         }
         Ok(())
@@ -135,18 +134,17 @@ fn advice(line: &[u8]) -> &'static str {
 }
 
 /// The drive of the lines of the spool from that one on.
-fn stream(path: &Path, first: u64, count: usize, spool: Arc<Spool>) -> Stream {
+fn stream(path: &Path, first: usize, count: usize, spool: Arc<Spool>) -> Stream {
     let cycles = counted(count, "cycle");
     let own = "each with its own profile, configuration and parameters";
     let notes = vec![format!("{cycles} as recorded, {own}")];
     let file = path.to_owned();
     let make = move |index: usize| {
-        let lost = |error: &io::Error| ReadError::file(&file, lost(error));
-        let (number, line) = spool.line(first + index as u64).map_err(|error| lost(&error))?;
-        match cycle_from_line(&line, number) {
-            Ok((id, cycle)) => Ok(DriveCycle { id, cycle }),
-            Err(error) => Err(lost(&io::Error::other(error.message))),
-        }
+        let read = spool.line(first + index).and_then(|(number, line)| {
+            cycle_from_line(&line, number).map_err(|error| Spool::lost(&error.message))
+        });
+        let (id, cycle) = read.map_err(|error| ReadError::file(&file, error.to_string()))?;
+        Ok(DriveCycle { id, cycle })
     };
     let mut drive = Stream::fallible(stem(path), path.display().to_string(), count, make);
     (drive.lead_range_m, drive.notes) = (Sensor::default().lead_range_m, notes);

@@ -18,7 +18,6 @@ mod scenario;
 mod sides;
 mod solution;
 mod source;
-mod spool;
 mod strip;
 mod surface;
 mod vehicle;
@@ -31,11 +30,11 @@ use std::sync::Arc;
 use crate::DEMO;
 use crate::drive::{Drive, Stream};
 use crate::options::Options;
+use crate::spool::Spool;
 use content::Content;
 use error::ReadError;
 use scenario::Scenario;
 use source::Source;
-use spool::Spool;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
 /// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines or in an MCAP

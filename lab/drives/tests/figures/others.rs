@@ -7,18 +7,12 @@ use mufasa_model::hardened::h14_fail_safe::meeting::{
 };
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, all_motions};
 use mufasa_model::hardened::h14_fail_safe::path::places;
-use mufasa_model::input::scene::Scene;
 use mufasa_model::numbers::polyline::{beside as beside_path, nearest_point};
-use mufasa_model::numbers::vector::Frame;
 use mufasa_model::stages::llcc::cav;
 use serde_json::{Value, json};
 
 use crate::sheet::{Look, Pen, Sheet, xy};
-use crate::world::{NOW_NS, ego, scene, station, tracks, trajectory};
-
-fn own(scene: &Scene) -> Frame {
-    Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() }
-}
+use crate::world::{NOW_NS, ego, own, scene, station, tracks, trajectory};
 
 /// An object at (x, y) that drives into a direction.
 fn object(x: f64, y: f64, angle: f64, speed: f64) -> ([f64; 5], [f64; 2]) {

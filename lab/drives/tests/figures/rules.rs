@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use mufasa_model::hardened::h04_gap::s_react;
 use mufasa_model::hardened::h11_steps::step_failure;
 use mufasa_model::hardened::h14_fail_safe::path::places;
 use mufasa_model::hardened::h14_fail_safe::times::Driving;
-use mufasa_model::input::scene::Scene;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::numbers::rectangle::Rectangle;
-use mufasa_model::numbers::vector::Frame;
 use mufasa_model::report::{Outcome, Stage};
 use mufasa_model::stages::distances::s_b;
 use mufasa_model::stages::horizon::points_within;
@@ -18,14 +18,7 @@ use mufasa_model::stages::v_grid_map::{disk_offset, disk_radius};
 use serde_json::{Value, json};
 
 use crate::sheet::{Look, Pen, Sheet, xy};
-use crate::world::{NOW_NS, ego, outcome, scene, seen, tracks, trajectory};
-
-fn merged(mut of: Value, with: &Value) -> Value {
-    for (name, value) in with.as_object().into_iter().flatten() {
-        of[name] = value.clone();
-    }
-    of
-}
+use crate::world::{NOW_NS, ego, merged, outcome, own, scene, seen, tracks, trajectory};
 
 /// A ghost in the mean, and a detection that is missing.
 pub fn h01() -> String {
@@ -65,10 +58,6 @@ pub fn h01() -> String {
         });
     }
     sheet.finish()
-}
-
-fn own(scene: &Scene) -> Frame {
-    Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() }
 }
 
 /// Points within s_b from the first one, places up to s_stop from the CAV.
@@ -194,20 +183,7 @@ fn only(cell: usize) -> Value {
     let mut bytes = vec![0_u8; (COLUMNS * ROWS).div_ceil(8)];
     bytes[cell / 8] |= 1 << (cell % 8);
     json!({"stamp_ns": NOW_NS, "x": CORNER[0], "y": CORNER[1], "cos": 1, "sin": 0, "resolution": SIDE,
-           "width": COLUMNS, "height": ROWS, "occupied": base64(&bytes), "unknown": null})
-}
-
-fn base64(bytes: &[u8]) -> String {
-    let letters = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let group = |chunk: &[u8]| {
-        let word =
-            (0..3).fold(0_usize, |word, i| word << 8 | usize::from(*chunk.get(i).unwrap_or(&0)));
-        let letter = |i: usize| {
-            if i > chunk.len() { '=' } else { char::from(letters[word >> (18 - 6 * i) & 63]) }
-        };
-        (0..4).map(letter).collect::<String>()
-    };
-    bytes.chunks(3).map(group).collect()
+           "width": COLUMNS, "height": ROWS, "occupied": STANDARD.encode(&bytes), "unknown": null})
 }
 
 /// Where the first point may be, and how it may be turned.

@@ -1,8 +1,6 @@
 //! A sheet of panels, as SVG: metres (or metres and seconds) on small maps, with a title above and
 //! words below.
 
-use std::fmt::Write as _;
-
 use mufasa_drives::pictures::canvas::Canvas;
 use mufasa_model::numbers::rectangle::Rectangle;
 use mufasa_model::numbers::vector::Vector;
@@ -40,6 +38,8 @@ pub struct Sheet {
     size: [f64; 2],
     lines: usize,
     count: usize,
+    /// That of the first panel.
+    title: String,
     canvas: Canvas,
 }
 
@@ -58,7 +58,7 @@ pub struct Look<'a> {
 impl Sheet {
     /// Panels of `size` px in `columns`, each with room for `lines` lines of words.
     pub fn new(columns: usize, size: [f64; 2], lines: usize) -> Self {
-        Self { columns, size, lines, count: 0, canvas: Canvas::default() }
+        Self { columns, size, lines, count: 0, title: String::new(), canvas: Canvas::default() }
     }
 
     fn step(&self) -> [f64; 2] {
@@ -71,6 +71,9 @@ impl Sheet {
         let [column, row] = [self.count % self.columns, self.count / self.columns].map(count);
         let [width, height] = self.size;
         let corner = [MARGIN + column * self.step()[0], TITLE + row * self.step()[1]];
+        if self.count == 0 {
+            look.title.clone_into(&mut self.title);
+        }
         self.count += 1;
         self.canvas.open(&format!("transform=\"translate({},{})\"", corner[0], corner[1]));
         self.canvas.text(Some([0.0, -7.0]), "h", look.title);
@@ -79,7 +82,7 @@ impl Sheet {
         for (i, line) in lines.iter().enumerate() {
             self.canvas.text(Some([0.0, height + LINE * (count(i) + 0.9)]), "", line);
         }
-        self.canvas.open("clip-path=\"url(#p)\"");
+        self.canvas.clip(&format!("p{}", self.count), [0.0; 2], self.size);
         draw(&mut Pen { canvas: &mut self.canvas, low: look.low, scale: look.scale, height });
         self.canvas.close();
         self.canvas.rect([0.0, 0.0], [width, height], "frame");
@@ -91,17 +94,7 @@ impl Sheet {
         let rows = self.count.div_ceil(self.columns);
         let [across, down] = self.step();
         let (width, height) = (MARGIN + count(self.columns) * across, count(rows) * down);
-        let mut out = String::new();
-        let _ = write!(
-            out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
-             <style>{STYLE}</style>\n<clipPath id=\"p\"><rect width=\"{}\" height=\"{}\"/></clipPath>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}</svg>\n",
-            self.size[0],
-            self.size[1],
-            self.canvas.into_body()
-        );
-        out
+        self.canvas.document([width, height], &self.title, STYLE)
     }
 }
 
@@ -139,12 +132,8 @@ impl Pen<'_> {
     /// An arrow.
     pub fn arrow(&mut self, from: [f64; 2], to: [f64; 2]) {
         let (a, b) = (self.at(from), self.at(to));
-        let [x, y] = [b[0] - a[0], b[1] - a[1]];
-        let far = x.hypot(y).max(1e-9);
-        let [x, y] = [x / far * 7.0, y / far * 7.0];
-        let side = |s: f64| Some([b[0] - x - s * y * 0.45, b[1] - y + s * x * 0.45]);
-        self.canvas.polyline(&[Some(a), Some([b[0] - x * 0.8, b[1] - y * 0.8])], "line");
-        self.canvas.polygon(&[Some(b), side(1.0), side(-1.0)], "tip");
+        self.canvas.polyline(&[Some(a), Some(b)], "line");
+        self.canvas.tip(a, b, 7.0, "tip");
     }
 
     /// A dot of a radius in px.

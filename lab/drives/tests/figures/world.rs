@@ -3,6 +3,7 @@
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::input::scene::Scene;
+use mufasa_model::numbers::vector::Frame;
 use mufasa_model::report::{Outcome, Reading, Stage};
 use mufasa_records::{Record, parse};
 use serde_json::{Value, json};
@@ -12,20 +13,30 @@ pub const NOW_NS: i64 = 1_000_000_000;
 
 /// A cycle; `changes` replaces fields of the record.
 pub fn cycle(changes: &Value) -> Cycle {
-    let mut record = json!({
+    let record = json!({
         "kind": "cycle", "id": "figure", "profile": "hardened", "parameters": {}, "now_ns": NOW_NS,
         "configuration": "AllRemote", "ego": ego(10.0),
         "trajectory": null, "tracks": null, "detections": null, "lead": null,
         "route": {"closed": false, "stations": [station(-100.0, 0.0, 1.0, 0.0), station(200.0, 0.0, 1.0, 0.0)]},
         "grid": null, "detection_history": []
     });
-    for (name, value) in changes.as_object().into_iter().flatten() {
-        record[name] = value.clone();
-    }
-    match parse(record.to_string().as_bytes(), 1) {
+    match parse(merged(record, changes).to_string().as_bytes(), 1) {
         Ok(Record::Cycle { cycle, .. }) => *cycle,
         other => panic!("{other:?}"),
     }
+}
+
+/// A record with fields of another in the place of its own.
+pub fn merged(mut of: Value, with: &Value) -> Value {
+    for (name, value) in with.as_object().into_iter().flatten() {
+        of[name] = value.clone();
+    }
+    of
+}
+
+/// The frame of the CAV.
+pub fn own(scene: &Scene) -> Frame {
+    Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() }
 }
 
 /// The same in the exact numbers of the model.

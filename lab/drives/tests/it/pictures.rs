@@ -2,107 +2,40 @@
 
 use mufasa_drives::check::words;
 use mufasa_drives::pictures::{Content, picture};
-use mufasa_model::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
-    TrackList, Trajectory, TrajectoryPoint,
-};
-use mufasa_model::input::parameters::Parameters;
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, Lead, Track};
 use mufasa_model::report::{
     FailedStage, InvalidInput, Outcome, Reason, Report, Rule, Stage, Witness,
 };
-use mufasa_model::services::configuration::Configuration;
 use roxmltree::{Document, Node};
 
-/// A car on a bend to the left, with two tracks, four detections, two earlier lists and a grid.
+/// A straight road with two tracks, four detections, two earlier lists, a lead and a grid.
 fn cycle() -> Cycle {
-    let at = |s: f64, offset: f64| {
-        let angle = 0.4 + s / 120.0;
-        let radius = 120.0 - offset;
-        [500.0 + radius * angle.sin(), 900.0 - radius * angle.cos(), angle]
+    let mut cycle = crate::common::cycle(0, true);
+    let stamp_ns = cycle.now_ns;
+    let list = |ago_ms: i64, places: &[[f64; 2]]| {
+        let item = |[x, y]: &[f64; 2]| {
+            let (x, y) = (*x, *y);
+            Detection { x, y, cos: 1.0, sin: 0.0, length: 4.4, width: 1.9 }
+        };
+        let items = places.iter().map(item).collect();
+        DetectionList { stamp_ns: stamp_ns - ago_ms * 1_000_000, items }
     };
-    let route = |index: i32| {
-        let s = f64::from(index) * 5.0;
-        let [x, y, _] = at(s, 0.0);
-        let [left, right] = [at(s, 1.9), at(s, -1.9)].map(|[x, y, _]| [x, y]);
-        CrossSection { x, y, left, right }
-    };
-    let point = |index: i32| {
-        let [x, y, angle] = at(f64::from(index) * 2.0, 0.0);
-        let t_ns = 1_000_000_000 + i64::from(index) * 200_000_000;
-        TrajectoryPoint { t_ns, x, y, cos: angle.cos(), sin: angle.sin() }
-    };
-    let track = |id, s, offset, speed: f64| {
-        let [x, y, angle] = at(s, offset);
-        let (sin, cos) = angle.sin_cos();
-        let [vx, vy] = [speed * cos, speed * sin];
-        Track { id, x, y, cos, sin, vx, vy, length: 4.5, width: 1.8 }
-    };
-    let detection = |s, offset| {
-        let [x, y, angle] = at(s, offset);
-        Detection { x, y, cos: angle.cos(), sin: angle.sin(), length: 4.4, width: 1.9 }
-    };
-    let [x, y, angle] = at(0.0, 0.0);
+    cycle.detections = Some(list(0, &[[9.1, 0.1], [30.0, 3.5], [44.0, -6.0], [20.0, -3.0]]));
+    cycle.detection_history =
+        vec![list(300, &[[18.6, -5.2]]), list(500, &[[21.0, 0.2], [17.0, -8.0]])];
+    let tracks = &mut cycle.tracks.as_mut().unwrap().items;
+    tracks[0].vx = 3.0;
+    tracks.push(Track { id: 12, x: 30.0, y: 3.6, vx: -9.0, ..tracks[0].clone() });
+    cycle.lead = Some(Lead { stamp_ns, gap: 17.0, speed: 3.0 });
+    let (width, height) = (300, 150);
     let mut occupied = vec![0_u8; 300 * 150 / 8];
-    for row in 100..106 {
-        for column in 120..150 {
-            let bit = row * 300 + column;
-            occupied[bit / 8] |= 1 << (bit % 8);
-        }
+    for bit in (100..106).flat_map(|row| (120..150).map(move |column| row * 300 + column)) {
+        occupied[bit / 8] |= 1 << (bit % 8);
     }
-    Cycle {
-        profile: Profile::HARDENED,
-        parameters: Parameters::default(),
-        now_ns: 1_000_000_000,
-        configuration: Configuration::AllRemote,
-        ego: Ego {
-            x,
-            y,
-            cos: angle.cos(),
-            sin: angle.sin(),
-            speed: 10.0,
-            length: 4.8,
-            width: 1.9,
-            center_offset: 1.4,
-        },
-        trajectory: Some(Trajectory {
-            stamp_ns: 1_000_000_000,
-            points: (0..25).map(point).collect(),
-        }),
-        tracks: Some(TrackList {
-            stamp_ns: 1_000_000_000,
-            items: vec![track(7, 22.0, 0.3, 3.0), track(12, 30.0, 3.6, -9.0)],
-        }),
-        detections: Some(DetectionList {
-            stamp_ns: 1_000_000_000,
-            items: vec![
-                detection(22.1, 0.2),
-                detection(30.0, 3.5),
-                detection(44.0, -6.0),
-                detection(20.0, -3.0),
-            ],
-        }),
-        lead: Some(Lead { stamp_ns: 1_000_000_000, gap: 17.0, speed: 3.0 }),
-        route: Route { closed: false, cross_sections: (-4..18).map(route).collect() },
-        grid: Some(Grid {
-            stamp_ns: 1_000_000_000,
-            x: x - 10.0,
-            y: y - 15.0,
-            cos: 1.0,
-            sin: 0.0,
-            resolution: 0.2,
-            width: 300,
-            height: 150,
-            occupied,
-            unknown: None,
-        }),
-        detection_history: vec![
-            DetectionList { stamp_ns: 700_000_000, items: vec![detection(18.6, -5.2)] },
-            DetectionList {
-                stamp_ns: 500_000_000,
-                items: vec![detection(21.0, 0.2), detection(17.0, -8.0)],
-            },
-        ],
-    }
+    let (x, y, cos, sin, resolution, unknown) = (-10.0, -15.0, 1.0, 0.0, 0.2, None);
+    cycle.grid =
+        Some(Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown });
+    cycle
 }
 
 fn witness(rule: Rule) -> Witness {
@@ -137,7 +70,7 @@ fn drawn(cycle: &Cycle, report: &Report) -> String {
 fn reports() -> Vec<(&'static str, Report)> {
     let point = Some(9);
     let track = Witness { point, track: Some(7), ..witness(Rule::Collision) };
-    let fail_safe = Witness { point: Some(27), rule: Rule::FailSafe, ..track.clone() };
+    let fail_safe = Witness { point: Some(42), rule: Rule::FailSafe, ..track.clone() };
     let detection = Witness { point, detection: Some(0), ..witness(Rule::Collision) };
     let moving = Witness {
         rule: Rule::FailSafe,

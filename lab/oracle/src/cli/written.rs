@@ -1,6 +1,5 @@
 //! What is written once for other programs: completions, manual pages, schemas, vectors.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -43,29 +42,12 @@ pub fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
 
 /// The manual pages of a command and those below it. The exit code.
 pub fn man(folder: &Path, command: Command, out: &mut impl Write) -> io::Result<u8> {
-    if let Err(error) = pages(folder, command) {
+    let written = files::prepare(folder).and_then(|()| clap_mangen::generate_to(command, folder));
+    if let Err(error) = written {
         return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
     }
     writeln!(out, "{}: the manual pages; read one by man -l", folder.display())?;
     Ok(0)
-}
-
-/// Writes them beside their place first, so that each is whole or not there.
-fn pages(folder: &Path, command: Command) -> io::Result<()> {
-    files::prepare(folder)?;
-    let beside = folder.join(".mufasa.tmp");
-    // Of a run that was killed.
-    let _ = fs::remove_dir_all(&beside);
-    let written = fs::create_dir_all(&beside).and_then(|()| {
-        clap_mangen::generate_to(command, &beside)?;
-        for page in fs::read_dir(&beside)? {
-            let page = page?;
-            fs::rename(page.path(), folder.join(page.file_name()))?;
-        }
-        Ok(())
-    });
-    let removed = fs::remove_dir_all(&beside);
-    written.and(removed)
 }
 
 /// The schemas. The exit code.

@@ -76,11 +76,6 @@ impl Graph {
         Self::new(services, goal, &links)
     }
 
-    /// The stations that occur, sorted.
-    pub fn stations(&self) -> BTreeSet<i64> {
-        self.nodes.iter().map(|node| node.station).collect()
-    }
-
     fn new(services: &ServiceSet, goal: &str, links: &Links<'_>) -> Self {
         let mut ids: BTreeSet<&str> = links.keys().flat_map(|(from, to)| [*from, *to]).collect();
         ids.remove(goal);

@@ -12,16 +12,19 @@ use mufasa_drives::pictures::escape;
 use super::graph::{Graph, station_name};
 
 /// px
-const BOX_HEIGHT: f64 = 34.0;
+const BOX_HEIGHT: f64 = 44.0;
 const BORDER: f64 = 28.0;
 const TITLE_HEIGHT: f64 = 44.0;
-const LEGEND_HEIGHT: f64 = 54.0;
+const NOTE_HEIGHT: f64 = 36.0;
 const FONT_SIZE: f64 = 14.0;
+/// Below the graph.
+const NOTE: &str = "An arrow: provides for. Dashed: a device switch.";
 /// Longest label, characters; the whole id is in the tooltip.
 const LABEL_CHARS: usize = 32;
 /// Colour of the CAV, then of the other stations in turn; the first two are the paper's.
 const COLOURS: [&str; 7] =
     ["#67acd4", "#ea7f81", "#8dbf7a", "#e5b567", "#a98fc9", "#6fbfb0", "#c9a58f"];
+const LINK: &str = "#333333";
 const SWITCH: &str = "#b81414";
 
 /// Fill colour of a station.
@@ -40,11 +43,13 @@ pub fn draw(graph: &Graph, title: &str) -> String {
     let mut sheet = VisualGraph::new(Orientation::TopToBottom);
     // `downwards` leaves no cycle; looking for one after every edge takes exponential time.
     sheet.dag.set_validate(false);
-    let labels: Vec<String> = graph.nodes.iter().map(|node| label(&node.id)).collect();
-    let element = |label: &String| {
-        let size = Point::new(text_width(label) + 28.0, BOX_HEIGHT);
+    let labels = graph.nodes.iter().map(|node| [label(&node.id), station_name(node.station)]);
+    let labels: Vec<[String; 2]> = labels.collect();
+    let element = |lines: &[String; 2]| {
+        let width = text_width(&lines[0]).max(0.8 * text_width(&lines[1]));
+        let size = Point::new(width + 28.0, BOX_HEIGHT);
         sheet.add_node(Element::create(
-            ShapeKind::new_box(label),
+            ShapeKind::new_box(&lines[0]),
             StyleAttr::simple(),
             Orientation::TopToBottom,
             size,
@@ -56,21 +61,26 @@ pub fn draw(graph: &Graph, title: &str) -> String {
     }
     let mut page = Page::default();
     sheet.do_it(false, false, false, &mut page);
-    for ((node, label), handle) in graph.nodes.iter().zip(&labels).zip(nodes) {
-        let about = escape(&format!("{}, {}", node.id, station_name(node.station)));
+    for ((node, [label, station]), handle) in graph.nodes.iter().zip(&labels).zip(nodes) {
         let place = sheet.element(handle).position();
         let ([x, y], size, middle) = (xy(place.bbox(false).0), place.size(false), place.center());
-        let swatch = swatch([x, y], [size.x, size.y], node.station);
         page.reach([x, y]);
         page.reach([x + size.x, y + size.y]);
         page.elements.push(format!(
-            "<g><title>{about}</title>{swatch}<text class=\"label\" x=\"{:.1}\" y=\"{:.1}\">{}</text></g>",
-            middle.x,
-            middle.y + FONT_SIZE * 0.35,
-            escape(label)
+            "<g><title>{}, {station}</title><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" rx=\"8\" \
+             fill=\"{}\" stroke=\"{LINK}\"/><text class=\"middle\" x=\"{mx:.1}\" y=\"{:.1}\">{}</text>\
+             <text class=\"middle station\" x=\"{mx:.1}\" y=\"{:.1}\">{station}</text></g>",
+            escape(&node.id),
+            size.x,
+            size.y,
+            colour(node.station),
+            middle.y - 3.0,
+            escape(label),
+            middle.y + 14.0,
+            mx = middle.x,
         ));
     }
-    page.finish(graph, title)
+    page.finish(title)
 }
 
 /// The links, each from its end nearer to the goal to the other, ordered by the first; the arrow
@@ -185,81 +195,35 @@ impl Page {
         self.corner = [0, 1].map(|axis| self.corner[axis].max(point[axis]));
     }
 
-    /// The document: title, graph and legend, one below the other, all centred.
-    fn finish(self, graph: &Graph, title: &str) -> String {
+    /// The document: title, graph and note, one below the other, all centred.
+    fn finish(self, title: &str) -> String {
         let [width, height] = self.corner;
-        let (legend, legend_width) = legend(graph);
-        let inner = width.max(legend_width).max(text_width(title) * 1.15);
-        let (page_width, legend_top) = (inner + 2.0 * BORDER, TITLE_HEIGHT + height + BORDER);
-        let page_height = legend_top + LEGEND_HEIGHT;
-        let title = escape(title);
-        let mut out = vec![
+        let inner = width.max(text_width(NOTE)).max(text_width(title) * 1.15);
+        let (page_width, note_y) = (inner + 2.0 * BORDER, TITLE_HEIGHT + height + BORDER);
+        let (page_height, middle) = (note_y + NOTE_HEIGHT, page_width / 2.0);
+        let (title, elements) = (escape(title), self.elements.join("\n"));
+        let markers = [("link", LINK), ("switch", SWITCH)].map(|(class, fill)| {
             format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page_width:.0}\" height=\"{page_height:.0}\" \
-                 viewBox=\"0 0 {page_width:.1} {page_height:.1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" \
-                 font-size=\"{FONT_SIZE}\">\n<title>{title}</title>\n<defs>{}{}</defs>",
-                marker("link", "#333333"),
-                marker("switch", SWITCH)
-            ),
-            format!(
-                "<style>.link {{ fill: none; stroke: #333333; stroke-width: 1.3 }} .switch {{ fill: none; \
-                 stroke: {SWITCH}; stroke-width: 1.8; stroke-dasharray: 7 4 }} .label {{ text-anchor: middle }} \
-                 .title {{ text-anchor: middle; font-size: 16px }}</style>\n\
-                 <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"
-            ),
-            format!(
-                "<text class=\"title\" x=\"{:.1}\" y=\"{TITLE_HEIGHT}\">{title}</text>",
-                page_width / 2.0
-            ),
-            moved((page_width - width) / 2.0, TITLE_HEIGHT, &self.elements),
-            moved((page_width - legend_width) / 2.0, legend_top, &legend),
-        ];
-        out.push(String::from("</svg>\n"));
-        out.join("\n")
+                "<marker id=\"to-{class}\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" \
+                 markerHeight=\"9\" markerUnits=\"userSpaceOnUse\" orient=\"auto-start-reverse\">\
+                 <path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"{fill}\"/></marker>"
+            )
+        });
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page_width:.0}\" height=\"{page_height:.0}\" \
+             viewBox=\"0 0 {page_width:.1} {page_height:.1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" \
+             font-size=\"{FONT_SIZE}\">\n<title>{title}</title>\n<defs>{}</defs>\n\
+             <style>.link {{ fill: none; stroke: {LINK}; stroke-width: 1.3 }} .switch {{ fill: none; \
+             stroke: {SWITCH}; stroke-width: 1.8; stroke-dasharray: 7 4 }} .middle {{ text-anchor: middle }} \
+             .title {{ font-size: 16px }} .station {{ font-size: 11px }}</style>\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
+             <text class=\"middle title\" x=\"{middle:.1}\" y=\"{TITLE_HEIGHT}\">{title}</text>\n\
+             <g transform=\"translate({:.1} {TITLE_HEIGHT})\">\n{elements}\n</g>\n\
+             <text class=\"middle\" x=\"{middle:.1}\" y=\"{note_y:.1}\">{NOTE}</text>\n</svg>\n",
+            markers.concat(),
+            (page_width - width) / 2.0,
+        )
     }
-}
-
-fn moved(x: f64, y: f64, elements: &[String]) -> String {
-    format!("<g transform=\"translate({x:.1} {y:.1})\">\n{}\n</g>", elements.join("\n"))
-}
-
-/// Samples with their names side by side, and their width, px.
-fn legend(graph: &Graph) -> (Vec<String>, f64) {
-    let stations = graph.stations().into_iter();
-    let mut entries: Vec<_> = stations
-        .map(|station| (26.0, swatch([0.0, 3.0], [26.0, 18.0], station), station_name(station)))
-        .collect();
-    let arrow = |class: &str, name: &str| {
-        let path =
-            format!("<path class=\"{class}\" d=\"M 0 12 H 40\" marker-end=\"url(#to-{class})\"/>");
-        (44.0, path, name.to_owned())
-    };
-    entries.push(arrow("link", "provides for"));
-    entries
-        .extend(graph.edges.iter().any(|it| it.switch).then(|| arrow("switch", "device switch")));
-    let (mut out, mut x) = (Vec::new(), 0.0);
-    for (sample_width, sample, name) in entries {
-        let text = format!("<text x=\"{:.1}\" y=\"17\">{name}</text>", sample_width + 8.0);
-        out.push(moved(x, 0.0, &[sample, text]));
-        x += sample_width + 8.0 + text_width(&name) + 26.0;
-    }
-    (out, x - 26.0)
-}
-
-fn marker(class: &str, fill: &str) -> String {
-    format!(
-        "<marker id=\"to-{class}\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" \
-         markerHeight=\"9\" markerUnits=\"userSpaceOnUse\" orient=\"auto-start-reverse\">\
-         <path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"{fill}\"/></marker>"
-    )
-}
-
-fn swatch([x, y]: [f64; 2], [width, height]: [f64; 2], station: i64) -> String {
-    format!(
-        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" rx=\"8\" \
-         fill=\"{}\" stroke=\"#333333\"/>",
-        colour(station)
-    )
 }
 
 fn label(id: &str) -> String {

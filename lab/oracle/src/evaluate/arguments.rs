@@ -26,7 +26,7 @@ file cannot be written, 3 model and implementation disagree."
 pub struct EvaluateArguments {
     /// The experiment.
     #[command(subcommand)]
-    pub experiment: Option<Experiment>,
+    pub experiment: Option<Asked>,
     /// How large it is, if it is not named.
     #[command(flatten)]
     pub size: SizeArguments,
@@ -35,13 +35,13 @@ pub struct EvaluateArguments {
 impl EvaluateArguments {
     /// Whether it is the search for collisions, which may take hours and keeps what it has when it is interrupted.
     pub const fn is_search(&self) -> bool {
-        matches!(self.experiment, Some(Experiment::Falsify(_)))
+        matches!(self.experiment, Some(Asked::Falsify(_)))
     }
 }
 
 /// The experiments.
 #[derive(Subcommand)]
-pub enum Experiment {
+pub enum Asked {
     /// Collisions and targets not reached under each attack of the paper: none checked, paper, hardened.
     Failures(SizeArguments),
     /// The attack with empty track lists in each reading of the paper's text: which of them give its figure.
@@ -99,7 +99,7 @@ pub struct SizeArguments {
     /// Threads [default: all processors]. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = whole(1_u16, 1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, replays of runs that failed (each
+    /// Write into this folder: table and runs as CSV and JSON, replays of runs that failed (each
     /// of the hardened profile, of others those of the first three scenarios on a route), and all of it in
     /// report.html.
     #[arg(long, value_name = "DIR")]

@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::ProgressBar;
-use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::attack::Kind;
@@ -26,15 +25,13 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{End, RunError};
 use serde::Deserialize;
 
-use super::codes::{BAD_INPUT, FAILED, INTERRUPTED};
+use super::codes::{FAILED, INTERRUPTED, refused, say};
 use super::maps;
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
-use super::plots::figures::Figure;
-use super::plots::search;
 use super::replay::{kind, variant};
-use super::report::{self, FailedRun, Section};
-use super::tables::{self, Rows};
+use super::report::{FailedRun, Leaves, Section};
+use super::tables;
 use super::text::{csv, json, said};
 use crate::document;
 use crate::limits::whole;
@@ -87,7 +84,7 @@ pub struct FalsifyArguments {
     /// Threads [default: all processors]. With --runs the results do not depend on it.
     #[arg(long, value_name = "N", value_parser = whole(1_u16, 1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Write table and collisions as JSON and CSV into this folder, a chart as SVG, all of it into report.html, and
+    /// Write table and collisions as JSON and CSV into this folder, all of it into report.html, and
     /// each collision into its folder found.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -138,10 +135,7 @@ pub fn run(
         });
         return match made {
             Ok((_, options, made)) => write_part(arguments, options, shard, &made, out, err),
-            Err(message) => {
-                complain(err, &message);
-                Ok(BAD_INPUT)
-            }
+            Err(message) => Ok(refused(&message, err)),
         };
     }
     let made =
@@ -185,17 +179,15 @@ fn ended(
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let written = made.and_then(|(town, made)| {
-        let names = write_files(places, &town, &made)?;
-        Ok((made, names))
+        let document = places[1].filter(|_| !made.interrupted);
+        let files = leaves(&town, &made, places[0].is_some())?.write(places[0], document)?;
+        Ok((made, files))
     });
-    let (made, names) = match written {
+    let (made, files) = match written {
         Ok(made) => made,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(BAD_INPUT);
-        }
+        Err(message) => return Ok(refused(&message, err)),
     };
-    write!(out, "{}", tables::falsified(&made).text())?;
+    write!(out, "{}", tables::falsified(&made).text(None))?;
     writeln!(
         out,
         "{} runs in {} rounds, {} collided, {} of them at random; {} runs to shrink {} collisions",
@@ -224,7 +216,7 @@ fn ended(
         };
         writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s; {last}")?;
     }
-    names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
+    say(&files, out)?;
     if made.interrupted {
         return Ok(INTERRUPTED);
     }
@@ -301,45 +293,22 @@ fn write_part(
     Ok(INTERRUPTED)
 }
 
-/// The names of the files, each there completely or not at all.
-fn write_files(
-    [folder, document]: [Option<&Path>; 2],
-    town: &Town,
-    made: &Falsified,
-) -> Result<Vec<PathBuf>, String> {
-    let say =
-        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
-    let mut names = Vec::new();
-    let mut write = |file: PathBuf, text: &str| {
-        files::write(&file, text).map_err(|error| say(&file, error))?;
-        names.push(file);
-        Ok::<(), String>(())
-    };
-    if let Some(folder) = folder {
-        write(folder.join(format!("{NAME}.csv")), &csv(&made.rows)?)?;
-        write(folder.join(format!("{NAME}.json")), &json(made)?)?;
+/// What a search leaves; with `draws` the files of a folder, too.
+fn leaves(town: &Town, made: &Falsified, draws: bool) -> Result<Leaves<'static>, String> {
+    let table = tables::falsified(made);
+    let mut files = Vec::new();
+    if draws {
+        files.push((PathBuf::from(format!("{NAME}.csv")), csv(&made.rows)?));
+        files.push((PathBuf::from(format!("{NAME}.json")), json(made)?));
         for found in &made.found {
-            write(folder.join(file_of(found, "json")), &json(found)?)?;
+            files.push((file_of(found, "json"), json(found)?));
             let (job, mut replay) = (found.case.job(), Replay::default());
             let outcome = job.run(town, &mut replay).map_err(said)?;
             let page = replay.page(town, &job.id, job.route, &outcome);
-            write(folder.join(file_of(found, "html")), &page)?;
+            files.push((file_of(found, "html"), page));
         }
-        let figures = search::falsified(made);
-        for figure in &figures {
-            write(folder.join(&figure.file), &figure.svg)?;
-        }
-        let (file, table) = (folder.join(report::FILE), tables::falsified(made));
-        let section = section(made, &table, &figures);
-        report::write(folder, &section).map_err(|error| say(&file, error))?;
-        names.push(file);
     }
-    if let Some(file) = document.filter(|_| !made.interrupted) {
-        let table = tables::falsified(made).markdown();
-        document::write(file, &command(&made.options), &table).map_err(|error| say(file, error))?;
-        names.push(file.to_owned());
-    }
-    Ok(names)
+    Ok(Leaves { table, place: command(&made.options), files, section: Some(section(made)) })
 }
 
 /// The file of a collision in the folder of the search: all about it, or its page.
@@ -358,7 +327,7 @@ fn command(options: &Options) -> String {
     format!("mufasa evaluate {NAME}{on}{profile}")
 }
 
-fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Section<'s> {
+fn section(made: &Falsified) -> Section<'static> {
     let Options { kinds, rounds, vehicles, seed, map, .. } = &made.options;
     let named: &[Kind] = if kinds[..] == KINDS { &[] } else { kinds };
     let kinds = named.iter().map(|kind| format!(" --attack {}", kind.name()));
@@ -383,8 +352,6 @@ fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Sect
             ("collided at random", made.collided_at_random.to_string()),
             ("mufasa", env!("CARGO_PKG_VERSION").to_owned()),
         ],
-        table,
-        figures,
         failed: made.found.iter().map(failed).collect(),
         checks: None,
     }

@@ -17,7 +17,7 @@ pub struct MergeArguments {
     /// The folder of the map on which the parts were made, if it is not the town.
     #[arg(long, value_name = "FOLDER")]
     pub map: Option<PathBuf>,
-    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, pages of runs that failed (those that
+    /// Write into this folder: table and runs as CSV and JSON, pages of runs that failed (those that
     /// are beside the parts), and all of it in report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -22,7 +22,7 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
-use super::codes::BAD_INPUT;
+use super::codes::refused;
 use super::log::Log;
 use super::maps;
 use super::text::said;
@@ -99,10 +99,7 @@ pub fn run(
             writeln!(out, "{name}: {:?} at {:.2} s, {files}", outcome.end, outcome.t)?;
             Ok(0)
         }
-        Err(message) => {
-            complain(err, &message);
-            Ok(BAD_INPUT)
-        }
+        Err(message) => Ok(refused(&message, err)),
     }
 }
 

@@ -1,18 +1,18 @@
-//! What experiments left in a folder, as one page that needs nothing else: settings, tables, charts, and links to
+//! What experiments left in a folder, as one page that needs nothing else: settings, tables, and links to
 //! replays of runs that failed. Each experiment has a section, which the next one of its name replaces.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mufasa_drives::pictures::escape;
 use mufasa_records::files;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::run::End;
 
-use super::plots::figures::Figure;
-use super::tables::Rows;
+use crate::document;
+use crate::rows::Rows;
 
 /// The name of the page.
 pub(super) const FILE: &str = "report.html";
@@ -27,12 +27,13 @@ body { font-family: 'DejaVu Sans', Verdana, Helvetica, sans-serif; font-size: 15
 margin: 2em auto; max-width: 940px; padding: 0 1em; color: #1d2733; background: #fff }\n\
 table { border-collapse: collapse; font-size: 13px; margin: 1em 0 }\n\
 th, td { border-bottom: 1px solid #d5dbe1; padding: .25em .7em; text-align: left }\n\
-th { border-bottom: 2px solid #6a7683 }\ntd.number { text-align: right }\n\
-svg { display: block; width: 100%; height: auto; margin: 1em 0 }\nh2 { margin-top: 2.5em }\n\
+th { border-bottom: 2px solid #6a7683 }\ntd.number { text-align: right; \
+background: linear-gradient(to left, #cfe3f5 var(--bar, 0%), transparent 0) }\nh2 { margin-top: 2.5em }\n\
 code { background: #eef1f4; padding: .1em .3em }\ndetails { margin: 1em 0 }\n\
 .wide { overflow-x: auto }\n\
 @media (prefers-color-scheme: dark) { body { color: #e8edf2; background: #15191e } a { color: #7db8f0 }\n\
-th, td { border-color: #343c45 } code { background: #252c33 } }\n</style>\n</head>\n<body>\n\
+th, td { border-color: #343c45 }\n\
+td.number { background: linear-gradient(to left, #24445f var(--bar, 0%), transparent 0) } code { background: #252c33 } }\n</style>\n</head>\n<body>\n\
 <h1>Experiments in a closed loop</h1>\n\
 <p>A CAV drives through a town and lets a station track and plan for it, while somebody attacks. What is \
 checked of what comes back: <b>sofof</b>, its age alone; <b>paper</b>, the five stages as published; \
@@ -57,22 +58,69 @@ pub(super) struct Section<'s> {
     pub(super) command: String,
     /// Names and values.
     pub(super) settings: Vec<(&'static str, String)>,
-    pub(super) table: &'s Rows,
-    pub(super) figures: &'s [Figure],
     pub(super) failed: Vec<FailedRun>,
     /// What the model was asked; none: nothing is checked in this experiment.
     pub(super) checks: Option<&'s Checks>,
 }
 
-/// Puts the section into the page of the folder. Errors: the page cannot be read or written.
-pub(super) fn write(folder: &Path, section: &Section<'_>) -> io::Result<()> {
-    let file = folder.join(FILE);
-    let old = match fs::read_to_string(&file) {
-        Ok(text) => text,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
-        Err(error) => return Err(error),
-    };
-    files::write(&file, &page(&old, section.name, &text(section)))
+/// What an experiment leaves.
+pub(super) struct Leaves<'s> {
+    pub(super) table: Rows,
+    /// What the table is called in a document.
+    pub(super) place: String,
+    /// Names of files, and their texts.
+    pub(super) files: Vec<(PathBuf, String)>,
+    /// Of the report; none: it has none.
+    pub(super) section: Option<Section<'s>>,
+}
+
+impl Leaves<'_> {
+    /// Writes all files into the folder, each there completely or not at all, and the table into the document. What was
+    /// written. Errors: in words, with the file.
+    pub(super) fn write(
+        &self,
+        folder: Option<&Path>,
+        document: Option<&Path>,
+    ) -> Result<Vec<PathBuf>, String> {
+        let mut written = Vec::new();
+        let mut wrote = |file: PathBuf, done: io::Result<()>| match done {
+            Ok(()) => {
+                written.push(file);
+                Ok(())
+            }
+            Err(error) => Err(format!("{}: cannot be written: {error}", file.display())),
+        };
+        if let Some(folder) = folder {
+            for (name, text) in &self.files {
+                let file = folder.join(name);
+                let made = file.parent().map_or(Ok(()), fs::create_dir_all);
+                let done = made.and_then(|()| files::write(&file, text));
+                wrote(file, done)?;
+            }
+            if let Some(section) = &self.section {
+                let file = folder.join(FILE);
+                let done = section.write(&file, &self.table);
+                wrote(file, done)?;
+            }
+        }
+        if let Some(file) = document {
+            let done = document::write(file, &self.place, &self.table.markdown());
+            wrote(file.to_owned(), done)?;
+        }
+        Ok(written)
+    }
+}
+
+impl Section<'_> {
+    /// Puts the section into a page. Errors: the page cannot be read or written.
+    fn write(&self, file: &Path, table: &Rows) -> io::Result<()> {
+        let old = match fs::read_to_string(file) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(error),
+        };
+        files::write(file, &page(&old, self.name, &text(self, table)))
+    }
 }
 
 /// The page with this section in the place of the one of its name, or as the last.
@@ -94,7 +142,7 @@ fn marks(name: &str) -> [String; 2] {
     ["begin", "end"].map(|what| format!("<!-- {name}: {what} -->"))
 }
 
-fn text(section: &Section<'_>) -> String {
+fn text(section: &Section<'_>, table: &Rows) -> String {
     let mut text = format!("<h2>{}</h2>\n<p>", escape(section.name));
     for (name, value) in &section.settings {
         put(&mut text, format_args!("{}: {}. ", escape(name), escape(value)));
@@ -108,10 +156,7 @@ fn text(section: &Section<'_>) -> String {
             put(&mut text, format_args!("<p><b>{}</b></p>\n", escape(&line)));
         }
     }
-    for figure in section.figures {
-        text.push_str(&figure.svg);
-    }
-    put(&mut text, format_args!("<div class=\"wide\">\n{}</div>\n", section.table.html()));
+    put(&mut text, format_args!("<div class=\"wide\">\n{}</div>\n", table.html()));
     failed(&mut text, &section.failed);
     text
 }

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::scenes::{NAME, Options, Scenes};
 use mufasa_sim::vehicle::TAU_S;
 
-use super::codes::{BAD_INPUT, FAILED};
+use super::codes::{FAILED, refused, say};
 use super::replay::variant;
+use super::report::Leaves;
 use super::tables;
 use super::text::{csv, json, said};
 use crate::document;
@@ -76,13 +76,10 @@ pub fn run(
 ) -> io::Result<u8> {
     let (made, names) = match search(arguments) {
         Ok(made) => made,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(BAD_INPUT);
-        }
+        Err(message) => return Ok(refused(&message, err)),
     };
-    write!(out, "{}", tables::scenes(&made).text())?;
-    names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
+    write!(out, "{}", tables::scenes(&made).text(None))?;
+    say(&names, out)?;
     let is_hardened = made.options.profile == Variant::Hardened;
     Ok(if is_hardened && made.failures().next().is_some() { FAILED } else { 0 })
 }
@@ -121,7 +118,7 @@ fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String>
     if made.runs.is_empty() {
         return Err(format!("{}: no scene has such kinds", arguments.only.join(", ")));
     }
-    let names = write_files([&arguments.out, &arguments.into].map(Option::as_deref), &made)?;
+    let names = leaves(&made)?.write(arguments.out.as_deref(), arguments.into.as_deref())?;
     Ok((made, names))
 }
 
@@ -133,35 +130,15 @@ fn command(options: &Options) -> String {
     }
 }
 
-/// The names of the files but those of collisions, each there completely or not at all.
-fn write_files(
-    [folder, document]: [Option<&Path>; 2],
-    made: &Scenes,
-) -> Result<Vec<PathBuf>, String> {
-    let say =
-        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
-    let mut names = Vec::new();
-    if let Some(folder) = folder {
-        let texts = [
-            (format!("{NAME}.csv"), csv(&made.rows)?),
-            (format!("{NAME}-runs.csv"), csv(&made.runs)?),
-            (format!("{NAME}.json"), json(made)?),
-        ];
-        for (name, text) in texts {
-            let file = folder.join(name);
-            files::write(&file, &text).map_err(|error| say(&file, error))?;
-            names.push(file);
-        }
-        for run in made.failures() {
-            let file = folder.join(FOUND).join(format!("{}.jsonl", run.name()));
-            let text = made.options.records(run.scene);
-            files::write(&file, &text).map_err(|error| say(&file, error))?;
-        }
-    }
-    if let Some(file) = document {
-        let table = tables::scenes(made).markdown();
-        document::write(file, &command(&made.options), &table).map_err(|error| say(file, error))?;
-        names.push(file.to_owned());
-    }
-    Ok(names)
+/// What a search leaves.
+fn leaves(made: &Scenes) -> Result<Leaves<'static>, String> {
+    let texts =
+        [(".csv", csv(&made.rows)?), ("-runs.csv", csv(&made.runs)?), (".json", json(made)?)];
+    let texts = texts.map(|(end, text)| (PathBuf::from(format!("{NAME}{end}")), text));
+    let collisions = made.failures().map(|run| {
+        let file = Path::new(FOUND).join(format!("{}.jsonl", run.name()));
+        (file, made.options.records(run.scene))
+    });
+    let files = texts.into_iter().chain(collisions).collect();
+    Ok(Leaves { table: tables::scenes(made), place: command(&made.options), files, section: None })
 }

@@ -6,13 +6,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use mufasa_drives::check::complain;
 use mufasa_sim::experiment::select::{Part, Select, Shard};
 use serde_json::Value;
 
-use super::codes::BAD_INPUT;
+use super::codes::refused;
 use super::merge::MergeArguments;
-use super::shown::{EXPERIMENTS, named};
+use super::tables::{EXPERIMENTS, named};
 use super::{
     Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared, table_name,
     tell,
@@ -34,8 +33,7 @@ pub(super) fn write(
     let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
     tell(&checks, out, err)?;
     if let Err(error) = draw(folder, &drawn) {
-        complain(err, &format!("{}: cannot be written to: {error}", folder.display()));
-        return Ok(BAD_INPUT);
+        return Ok(refused(&format!("{}: cannot be written to: {error}", folder.display()), err));
     }
     let part = Part {
         version: parts::version(),
@@ -63,26 +61,20 @@ pub fn merge(
     let read = |()| parts::read(&arguments.parts);
     let whole = match prepared(folder).and_then(read) {
         Ok(whole) => whole,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(BAD_INPUT);
-        }
+        Err(message) => return Ok(refused(&message, err)),
     };
     let Part { experiment, options, runs, checks, .. } = whole;
     let drawn = folder.map_or_else(BTreeMap::new, |_| drawn(&runs, &arguments.parts));
     let (checks, drawn) = (Mutex::new(checks), Mutex::new(drawn));
     let select = Select { made: Some(&runs), checks, drawn, ..Select::default() };
     let shown = named(&experiment).ok_or_else(|| {
-        let names = EXPERIMENTS.map(|it| it.experiment.name).join(", ");
+        let names = EXPERIMENTS.map(|(it, _)| it.name).join(", ");
         format!("{experiment}: no such experiment; there are {names}")
     });
     let made = shown.and_then(|shown| {
         let task = Task { sized: &|_| options, select: &select };
         let town = maps::same(arguments.map.as_deref(), options.map, "the parts")?;
-        document::has_place(
-            arguments.into.as_deref(),
-            &table_name(shown.experiment.name, town.id),
-        )?;
+        document::has_place(arguments.into.as_deref(), &table_name(shown.0.name, town.id))?;
         in_threads(None, &town, &task, shown)
     });
     let made = made.map(|results| (results, select));

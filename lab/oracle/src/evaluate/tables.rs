@@ -1,100 +1,42 @@
 //! The tables of the experiments, the paper's values beside ours.
 
-use std::fmt::Write;
-
-use comfy_table::{CellAlignment, Table, presets};
-use mufasa_drives::pictures::escape;
+use mufasa_sim::attack::Kind;
 use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::attacks::ATTACKS;
+use mufasa_sim::experiment::availability::AVAILABILITY;
 use mufasa_sim::experiment::axes::{Detectors, Factor, LeftOut, Offered};
+use mufasa_sim::experiment::combinations::COMBINATIONS;
+use mufasa_sim::experiment::failures::FAILURES;
 use mufasa_sim::experiment::job::kind_name;
+use mufasa_sim::experiment::left_out::LEFT_OUT;
+use mufasa_sim::experiment::made::Experiment;
+use mufasa_sim::experiment::readings::READINGS;
 use mufasa_sim::experiment::row::Row;
+use mufasa_sim::experiment::stages::STAGES;
 use mufasa_sim::experiment::watch::By;
 use mufasa_sim::experiment::{falsify, scenes};
 
-use super::published;
+use crate::rows::{Column, Rows, number, text};
 
-/// A table of texts.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rows {
-    /// Of every column, with whether it holds numbers.
-    header: Vec<(&'static str, bool)>,
-    rows: Vec<Vec<String>>,
-}
+/// The experiments, with the columns of their tables.
+pub const EXPERIMENTS: [(Experiment, &[Column<Row>]); 7] = [
+    (FAILURES, FAILURES_COLUMNS),
+    (READINGS, READINGS_COLUMNS),
+    (STAGES, STAGES_COLUMNS),
+    (ATTACKS, ATTACKS_COLUMNS),
+    (COMBINATIONS, COMBINATIONS_COLUMNS),
+    (AVAILABILITY, AVAILABILITY_COLUMNS),
+    (LEFT_OUT, LEFT_OUT_COLUMNS),
+];
 
-/// A column: its name, whether it holds numbers, and what a row has there.
-pub type Column<R> = (&'static str, bool, fn(&R) -> String);
-
-const fn text<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
-    (name, false, cell)
-}
-
-const fn number<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
-    (name, true, cell)
-}
-
-/// A table with a line for each.
-pub fn rows<R>(of: &[R], columns: &[Column<R>]) -> Rows {
-    let header = columns.iter().map(|(name, is_number, _)| (*name, *is_number)).collect();
-    let row = |row: &R| columns.iter().map(|(.., cell)| cell(row)).collect();
-    Rows { header, rows: of.iter().map(row).collect() }
-}
-
-impl Rows {
-    /// For a terminal.
-    pub fn text(&self) -> String {
-        let mut table = Table::new();
-        table.load_style(presets::UTF8_FULL_CONDENSED);
-        table.set_header(self.header.iter().map(|(name, _)| *name));
-        for row in &self.rows {
-            table.add_row(row);
-        }
-        for (column, (_, is_number)) in table.column_iter_mut().zip(&self.header) {
-            if *is_number {
-                column.set_cell_alignment(CellAlignment::Right);
-            }
-        }
-        format!("{table}\n")
-    }
-
-    /// For a page.
-    pub fn html(&self) -> String {
-        let mut out = String::from("<table>\n<tr>");
-        for (name, _) in &self.header {
-            // A string takes whatever is written.
-            let _ = write!(out, "<th>{}</th>", escape(name));
-        }
-        out.push_str("</tr>\n");
-        for row in &self.rows {
-            out.push_str("<tr>");
-            for (cell, (_, is_number)) in row.iter().zip(&self.header) {
-                let class = if *is_number { " class=\"number\"" } else { "" };
-                let _ = write!(out, "<td{class}>{}</td>", escape(cell));
-            }
-            out.push_str("</tr>\n");
-        }
-        out.push_str("</table>\n");
-        out
-    }
-
-    /// For a document.
-    pub fn markdown(&self) -> String {
-        let names: Vec<&str> = self.header.iter().map(|(name, _)| *name).collect();
-        let mut out = format!("| {} |\n|", names.join(" | "));
-        for (_, is_number) in &self.header {
-            out.push_str(if *is_number { "--:|" } else { "---|" });
-        }
-        out.push('\n');
-        for row in &self.rows {
-            // A string takes whatever is written.
-            let _ = writeln!(out, "| {} |", row.join(" | "));
-        }
-        out
-    }
+/// The one of this name, and its columns.
+pub fn named(name: &str) -> Option<(Experiment, &'static [Column<Row>])> {
+    EXPERIMENTS.into_iter().find(|(it, _)| it.name == name)
 }
 
 /// Failures by attack and variant.
-pub const FAILURES: &[Column<Row>] = &[
+const FAILURES_COLUMNS: &[Column<Row>] = &[
     text("attack", |row| kind_name(row.attack).to_owned()),
     text("checked by", |row| row.variant.name().to_owned()),
     number("runs", |row| row.runs.to_string()),
@@ -102,13 +44,11 @@ pub const FAILURES: &[Column<Row>] = &[
     number("collided", |row| row.collided.to_string()),
     number("late", |row| row.late.to_string()),
     number("left the corridor", |row| row.off_road.to_string()),
-    text("failures in the paper", |row| {
-        published::failures(row.attack, row.variant).words.to_owned()
-    }),
+    text("failures in the paper", |row| published(row.attack, row.variant).to_owned()),
 ];
 
 /// Failures under empty lists, by the reading of the paper's text.
-pub const READINGS: &[Column<Row>] = &[
+const READINGS_COLUMNS: &[Column<Row>] = &[
     text("lists of", |row| word(row.lists.map(Lists::name))),
     text("they come", |row| word(row.comes.map(Comes::name))),
     text("an empty list is", |row| match (row.variant, row.empty_is_a_list) {
@@ -124,7 +64,7 @@ pub const READINGS: &[Column<Row>] = &[
 ];
 
 /// Executions and detections by variant and stage.
-pub const STAGES: &[Column<Row>] = &[
+const STAGES_COLUMNS: &[Column<Row>] = &[
     text("checked by", |row| row.variant.name().to_owned()),
     text("stage", |row| word(row.stage.map(By::name))),
     number("executions", |row| row.executions.to_string()),
@@ -140,7 +80,7 @@ pub const STAGES: &[Column<Row>] = &[
 ];
 
 /// What found each attack, and when.
-pub const ATTACKS: &[Column<Row>] = &[
+const ATTACKS_COLUMNS: &[Column<Row>] = &[
     text("attack", |row| kind_name(row.attack).to_owned()),
     text("offered", |row| word(row.offered.map(Offered::name))),
     text("checked by", |row| row.variant.name().to_owned()),
@@ -155,7 +95,7 @@ pub const ATTACKS: &[Column<Row>] = &[
 ];
 
 /// Failures under combinations of attacks.
-pub const COMBINATIONS: &[Column<Row>] = &[
+const COMBINATIONS_COLUMNS: &[Column<Row>] = &[
     text("offered", |row| word(row.offered.map(Offered::name))),
     text("checked by", |row| row.variant.name().to_owned()),
     number("runs", |row| row.runs.to_string()),
@@ -171,7 +111,7 @@ pub const COMBINATIONS: &[Column<Row>] = &[
 ];
 
 /// What the checks cost without an attack.
-pub const AVAILABILITY: &[Column<Row>] = &[
+const AVAILABILITY_COLUMNS: &[Column<Row>] = &[
     text("set", |row| word(row.factor.map(Factor::name))),
     number("to", |row| or_nothing(row.value)),
     text("checked by", |row| row.variant.name().to_owned()),
@@ -187,7 +127,7 @@ pub const AVAILABILITY: &[Column<Row>] = &[
 ];
 
 /// What is missed, and what is found without need, without what a stage needs.
-pub const LEFT_OUT: &[Column<Row>] = &[
+const LEFT_OUT_COLUMNS: &[Column<Row>] = &[
     text("detectors", |row| word(row.detectors.map(Detectors::name))),
     text("checked by", |row| row.variant.name().to_owned()),
     text("left out", |row| word(row.left_out.map(LeftOut::name))),
@@ -205,7 +145,7 @@ pub const LEFT_OUT: &[Column<Row>] = &[
 
 /// How near the runs of a search came, by kind of attack.
 pub fn falsified(of: &falsify::Falsified) -> Rows {
-    rows(
+    Rows::new(
         &of.rows,
         &[
             text("attack", |row| kind_name(row.attack).to_owned()),
@@ -222,7 +162,7 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
 
 /// Avoidable collisions with one other, by kinds of scenes.
 pub fn scenes(of: &scenes::Scenes) -> Rows {
-    rows(
+    Rows::new(
         &of.rows,
         &[
             text("", |row| row.of.clone()),
@@ -238,6 +178,17 @@ pub fn scenes(of: &scenes::Scenes) -> Rows {
             text("clean ones rejected by", |row| row.by.clone()),
         ],
     )
+}
+
+/// Failures as the paper gives them (Sec. V): its numbers are in a figure, which has to be read by eye.
+const fn published(attack: Option<Kind>, variant: Variant) -> &'static str {
+    match (attack, variant) {
+        (None, _) => "not said",
+        (Some(_), Variant::Paper) => "0",
+        (Some(Kind::WrongMap | Kind::EmptyTracks), Variant::Sofof) => "several",
+        (Some(_), Variant::Sofof) => "in its figure",
+        (Some(_), Variant::Hardened) => "",
+    }
 }
 
 fn word(of: Option<&'static str>) -> String {

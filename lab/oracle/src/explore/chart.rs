@@ -1,222 +1,158 @@
-//! A story of the exploration as a message sequence chart.
+//! A story of the exploration as a message sequence chart: Markdown with a diagram of Mermaid, which many viewers of
+//! Markdown draw.
 
 use mufasa_exploration::replay::{Episode, Look, Post, What};
 use mufasa_exploration::system::System;
 use mufasa_exploration::words;
 use mufasa_model::offloading::requester::{Action, EventKind, Group, GroupState, Groups};
 
-use mufasa_drives::pictures::sequence::{self, Arrow, Chart, Fate, Note, Partner, Span, State};
-
-/// The chart of a story as an SVG document: CAVs, stations and, where there is one, the attacker.
+/// The chart of a story: CAVs, stations and, where it forges, the attacker. A message is drawn when it arrives, or is
+/// lost; the note at its sender says when it was sent.
 pub fn draw(system: &System, title: &str, subtitle: &str, episodes: &[Episode]) -> String {
     let world = system.world();
-    let bars: Vec<_> = world.groups().map(words::name).collect();
-    let cavs =
-        (0..world.requesters).map(|cav| Partner { name: system.cav_name(cav), bars: bars.clone() });
-    let stations = (1..=world.stations.len())
-        .map(|station| Partner { name: format!("station {station}"), bars: vec![] });
-    let attacker = Partner { name: String::from("attacker"), bars: vec![] };
-    let forged = world.attacker && episodes.iter().any(is_forged);
     let mut teller = Teller {
-        cavs: world.requesters,
-        attacker: forged.then_some(world.requesters + world.stations.len()),
-        groups: world.groups().collect(),
+        system,
         flight: Vec::new(),
         used: vec![[false; 2]; world.requesters],
-        chart: Chart {
-            title: title.to_owned(),
-            subtitle: subtitle.to_owned(),
-            partners: cavs.chain(stations).chain(forged.then_some(attacker)).collect(),
-            rows: episodes.len(),
-            ..Chart::default()
-        },
+        states: vec![[""; 2]; world.requesters],
+        lines: Vec::new(),
     };
-    for (row, episode) in episodes.iter().enumerate() {
-        teller.tell(row, episode);
+    let names = (0..world.requesters).map(|cav| system.cav_name(cav));
+    for name in names.chain((1..=world.stations.len()).map(|id| format!("station {id}"))) {
+        teller.lines.push(format!("participant {name}"));
     }
-    teller.end();
-    sequence::draw(&teller.chart)
+    episodes.iter().for_each(|episode| teller.tell(episode));
+    // What is still on its way arrives nowhere.
+    for post in std::mem::take(&mut teller.flight) {
+        teller.message(post, "-x");
+    }
+    let diagram = teller.lines.join("\n    ");
+    format!("# {title}\n\n{subtitle}.\n\n```mermaid\nsequenceDiagram\n    {diagram}\n```\n")
 }
 
-/// Messages to a CAV that nobody sent through the network. Results always come like this; they
-/// are drawn as the station's.
-fn is_forged(episode: &Episode) -> bool {
-    let What::AtCav { event, post: None, .. } = episode.what else { return false };
-    matches!(event.kind, EventKind::Confirm { .. } | EventKind::Reject { .. })
-}
-
-struct Teller {
-    cavs: usize,
-    /// The attacker's place, when there is one.
-    attacker: Option<usize>,
-    groups: Vec<Group>,
-    /// Messages with the row in which they were sent, and whether they have arrived.
-    flight: Vec<(Post, usize, bool)>,
+struct Teller<'s> {
+    system: &'s System,
+    /// Messages that have not arrived.
+    flight: Vec<Post>,
     /// By CAV and group: whether a result of the running session was used.
     used: Vec<[bool; 2]>,
-    chart: Chart,
+    /// By CAV and group: what was last said of it.
+    states: Vec<[&'static str; 2]>,
+    lines: Vec<String>,
 }
 
-impl Teller {
-    fn tell(&mut self, row: usize, episode: &Episode) {
+impl Teller<'_> {
+    fn tell(&mut self, episode: &Episode) {
         match episode.what {
-            What::Time => self.chart.times.push((row, format!("{} ticks", episode.t_ns))),
-            What::Lost(post) => {
-                self.arrive(post, row, Fate::Lost);
-                self.flight.retain(|(sent, ..)| *sent != post);
+            What::Time => {
+                let last = self.system.world().stations.len();
+                let ends = format!("{},station {last}", self.system.cav_name(0));
+                self.note(&ends, &format!("{} ticks", episode.t_ns));
             }
+            What::Lost(post) => self.message(post, "-x"),
             What::Crash { station } => {
-                self.note(self.station(station), row, String::from("crashes and returns"));
+                self.note(&format!("station {station}"), "crashes and returns");
             }
             What::Alive { .. } => {}
-            What::AtCav { cav, event, post: None } => self.event(cav, row, event.kind),
+            What::AtCav { cav, event, post: None } => self.event(cav, event.kind),
             What::AtStation(post) | What::AtCav { post: Some(post), .. } => {
-                self.arrive(post, row, Fate::Arrives);
+                self.message(post, "->>");
             }
         }
         if let What::AtCav { cav, event, .. } = episode.what {
-            self.actions(cav, row, &episode.actions);
+            let actions: Vec<_> = episode.actions.iter().map(in_words).collect();
+            if !actions.is_empty() {
+                self.note(&self.system.cav_name(cav), &actions.join(", "));
+            }
             if let EventKind::Data { group, .. } = event.kind {
                 self.used[cav][group as usize] |= !episode.actions.contains(&Action::Drop(group));
             }
         }
-        for post in &episode.sent {
-            self.flight.push((*post, row, false));
-        }
-        for post in &episode.lost {
-            self.arrow(*post, (row, row), Fate::Lost);
-        }
-        for (cav, look) in episode.cavs.iter().enumerate() {
-            self.states(cav, row, look);
-        }
+        self.flight.extend(&episode.sent);
+        episode.lost.iter().for_each(|post| self.message(*post, "-x"));
+        episode.cavs.iter().enumerate().for_each(|(cav, look)| self.states(cav, look));
     }
 
-    /// Messages that are still in flight end nowhere.
-    fn end(&mut self) {
-        let last = self.chart.rows.saturating_sub(1);
-        for (post, row, arrived) in std::mem::take(&mut self.flight) {
-            if !arrived {
-                self.arrow(post, (row, last.max(row)), Fate::Lost);
-            }
+    fn message(&mut self, post: Post, arrow: &str) {
+        if let Some(at) = self.flight.iter().position(|it| *it == post) {
+            self.flight.remove(at);
         }
+        let ends = [self.system.cav_name(post.cav), format!("station {}", post.station)];
+        let [from, to] = if post.kind.is_to_station() { [0, 1] } else { [1, 0] };
+        let (kind, group) = (words::kind(post.kind), words::name(post.group));
+        let line = format!("{}{arrow}{}: {kind} {group} {}", ends[from], ends[to], post.session);
+        self.lines.push(line);
     }
 
-    fn arrive(&mut self, post: Post, row: usize, fate: Fate) {
-        let sent = self.flight.iter_mut().find(|(it, ..)| *it == post);
-        let from = sent.map_or(row, |(_, from, arrived)| {
-            *arrived = true;
-            *from
-        });
-        self.arrow(post, (from, row), fate);
-    }
-
-    fn arrow(&mut self, post: Post, (from, to): (usize, usize), fate: Fate) {
-        let (cav, station) = (post.cav, self.station(post.station));
-        if station >= self.chart.partners.len() {
-            return;
-        }
-        let text =
-            format!("{} {} #{}", words::kind(post.kind), words::name(post.group), post.session);
-        let (from, to) = if post.kind.is_to_station() {
-            ((cav, from), (station, to))
-        } else {
-            ((station, from), (cav, to))
+    /// What comes to a CAV without the network. Results always come like this; confirmations and rejections are forged.
+    fn event(&mut self, cav: usize, kind: EventKind) {
+        let to = self.system.cav_name(cav);
+        let answer = |what: &str, group: Group, session: i64, station: i64| {
+            let name = words::name(group);
+            format!("attacker-->>{to}: forged {what} {name} {session} of station {station}")
         };
-        self.chart.arrows.push(Arrow { from, to, text, fate });
-    }
-
-    /// What comes to a CAV without the network.
-    fn event(&mut self, cav: usize, row: usize, kind: EventKind) {
-        let (station, text) = match kind {
-            EventKind::Offer { station, groups } => (station, format!("offer {}", set(groups))),
-            EventKind::Withdraw { station } => (station, String::from("withdrawal")),
+        let from = |station: i64, text: String| format!("station {station}->>{to}: {text}");
+        let line = match kind {
+            EventKind::Offer { station, groups } => from(station, format!("offer {}", set(groups))),
+            EventKind::Withdraw { station } => from(station, "withdrawal".to_owned()),
             EventKind::Confirm { station, group, session } => {
-                (station, format!("confirmation {} #{session}", words::name(group)))
+                answer("confirmation", group, session, station)
             }
             EventKind::Reject { station, group, session } => {
-                (station, format!("rejection {} #{session}", words::name(group)))
+                answer("rejection", group, session, station)
             }
-            EventKind::Data { station, group, session, generated_ns } => (
-                station,
-                format!("result {} #{session} of {generated_ns} ticks", words::name(group)),
-            ),
+            EventKind::Data { station, group, session, generated_ns } => {
+                let name = words::name(group);
+                from(station, format!("result {name} {session} of {generated_ns} ticks"))
+            }
             EventKind::Lost { station } => {
-                return self.note(cav, row, format!("station {station} is lost"));
+                return self.note(&to, &format!("station {station} is lost"));
             }
             EventKind::Area { groups } => {
-                return self.note(cav, row, format!("area of {}", set(groups)));
+                return self.note(&to, &format!("area of {}", set(groups)));
             }
-            EventKind::Tick => return self.note(cav, row, String::from("tick")),
+            EventKind::Tick => return self.note(&to, "tick"),
             EventKind::Verdict { safe, sessions } => {
                 let verdict = if safe { "safe" } else { "unsafe" };
                 let used = Group::ALL.into_iter().filter(|it| sessions.of(*it).is_some());
-                return self.note(
-                    cav,
-                    row,
-                    format!("{verdict} cycle with {}", set(used.collect())),
-                );
+                let used = set(used.collect());
+                return self.note(&to, &format!("{verdict} cycle with {used}"));
             }
         };
-        let forged = matches!(kind, EventKind::Confirm { .. } | EventKind::Reject { .. });
-        let (from, fate, text) = match self.attacker {
-            Some(attacker) if forged => {
-                (attacker, Fate::Forged, format!("{text} as station {station}"))
-            }
-            _ => (self.station(station), Fate::Arrives, text),
-        };
-        let from = (from.min(self.chart.partners.len() - 1), row);
-        self.chart.arrows.push(Arrow { from, to: (cav, row), text, fate });
+        self.lines.push(line);
     }
 
-    fn actions(&mut self, cav: usize, row: usize, actions: &[Action]) {
-        let words: Vec<_> = actions
-            .iter()
-            .filter_map(|action| match *action {
-                Action::Activate(group) => Some(format!("local {} starts", words::name(group))),
-                Action::Deactivate(group) => Some(format!("local {} stops", words::name(group))),
-                Action::Drop(group) => Some(format!("{} result dropped", words::name(group))),
-                Action::Request { .. } | Action::Release { .. } => None,
-            })
-            .collect();
-        if !words.is_empty() {
-            self.note(cav, row, words.join(", "));
-        }
-    }
-
-    fn states(&mut self, cav: usize, row: usize, look: &Look) {
-        for (bar, group) in self.groups.iter().enumerate() {
-            let used = &mut self.used[cav][*group as usize];
-            let state = match (look.groups[*group as usize], look.computes[*group as usize]) {
-                (GroupState::Local, _) => State::Local,
-                (GroupState::Requested { .. }, _) => State::Requested,
-                (GroupState::Remote { .. }, true) => State::Both,
-                (GroupState::Remote { .. }, false) if *used => State::Remote,
-                (GroupState::Remote { .. }, false) => State::Gap,
+    /// Notes in which state a CAV is, where that is new.
+    fn states(&mut self, cav: usize, look: &Look) {
+        for group in self.system.world().groups() {
+            let at = group as usize;
+            let used = &mut self.used[cav][at];
+            let state = match (look.groups[at], look.computes[at]) {
+                (GroupState::Local, _) => "local",
+                (GroupState::Requested { .. }, _) => "requested, local services compute",
+                (GroupState::Remote { .. }, true) => "remote, local services compute too",
+                (GroupState::Remote { .. }, false) if *used => "remote",
+                (GroupState::Remote { .. }, false) => "NO RESULT FROM ANYWHERE",
             };
-            *used &= matches!(look.groups[*group as usize], GroupState::Remote { .. });
-            let goes_on = |span: &&mut Span| {
-                (span.partner, span.bar, span.to + 1, span.state) == (cav, bar, row, state)
-            };
-            if let Some(span) = self.chart.spans.iter_mut().find(goes_on) {
-                span.to = row;
-            } else {
-                self.chart.spans.push(Span { partner: cav, bar, from: row, to: row, state });
+            *used &= matches!(look.groups[at], GroupState::Remote { .. });
+            if std::mem::replace(&mut self.states[cav][at], state) != state {
+                self.note(&self.system.cav_name(cav), &format!("{}: {state}", words::name(group)));
             }
         }
     }
 
-    fn note(&mut self, partner: usize, row: usize, text: String) {
-        // A row that says two things says them on one line.
-        let notes = &mut self.chart.notes;
-        match notes.iter_mut().find(|note| (note.partner, note.row) == (partner, row)) {
-            Some(note) => note.text = format!("{}: {text}", note.text),
-            None => notes.push(Note { partner, row, text }),
-        }
+    fn note(&mut self, over: &str, text: &str) {
+        self.lines.push(format!("Note over {over}: {text}"));
     }
+}
 
-    /// The place of a station; of one that is not drawn it is out of range.
-    fn station(&self, station: i64) -> usize {
-        self.cavs + usize::try_from(station - 1).unwrap_or(usize::MAX - self.cavs)
+fn in_words(action: &Action) -> String {
+    match *action {
+        Action::Activate(group) => format!("local {} starts", words::name(group)),
+        Action::Deactivate(group) => format!("local {} stops", words::name(group)),
+        Action::Drop(group) => format!("{} result dropped", words::name(group)),
+        Action::Request { group, .. } => format!("requests {}", words::name(group)),
+        Action::Release { group, .. } => format!("releases {}", words::name(group)),
     }
 }
 

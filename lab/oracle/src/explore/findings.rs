@@ -61,7 +61,7 @@ pub fn write(folder: &Path, stories: &[Story<'_>]) -> Result<Vec<PathBuf>, (Path
     let mut written = Vec::new();
     for story in stories {
         let name = files::name(&story.name);
-        for (ending, content) in [("jsonl", story.vectors()), ("svg", Ok(story.chart()))] {
+        for (ending, content) in [("jsonl", story.vectors()), ("md", Ok(story.chart()))] {
             let file = folder.join(format!("{name}.{ending}"));
             let write = content.and_then(|content| files::write(&file, &content));
             write.map_err(|error| (file.clone(), error))?;

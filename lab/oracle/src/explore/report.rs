@@ -1,7 +1,5 @@
 //! An exploration as a file that a program can read, and as Markdown for documents.
 
-use std::fmt::Write as _;
-
 use mufasa_exploration::bounds::Bounds;
 use mufasa_exploration::properties::Property;
 use mufasa_exploration::run::WorldOutcome;
@@ -9,7 +7,8 @@ use mufasa_model::input::cycle::Profile;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::evidence;
+use super::evidence::{self, grouped, wide};
+use crate::rows::{Column, Rows, number, text};
 use mufasa_records::names;
 
 /// What was explored in one profile, and what it showed.
@@ -89,36 +88,42 @@ impl ExplorationReport {
 
     /// The tables as Markdown.
     pub fn markdown(&self) -> String {
-        let mut out = format!("### {} profile, {} bounds\n\n", self.profile, self.bounds);
-        out.push_str(
-            "| world | requester: states | steps compared | states | moves | depth | seconds | MB \
-             | stateright: states | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-        );
-        for world in &self.worlds {
-            let number = |number: usize| evidence::grouped(evidence::wide(number));
-            let _ = writeln!(
-                out,
-                "| {} | {} | {} | {} | {} | {} | {:.1} | {} | {} | {} |",
-                world.name,
-                number(world.requester_states),
-                number(world.steps_compared),
-                number(world.states),
-                evidence::grouped(world.moves),
-                world.depth,
-                world.seconds,
-                world.bytes.div_ceil(1 << 20),
-                world.stateright_states.map_or_else(|| String::from("not asked"), number),
-                world.stateright_seconds.map_or_else(String::new, |it| format!("{it:.1}")),
-            );
-        }
-        out.push_str("\n| property | | verdict | shown by (moves) |\n|---|---|---|---|\n");
-        for property in &self.properties {
-            let PropertyRow { name, kind, shown_by, .. } = property;
-            let shown_by = shown_by.replace('\n', "; ");
-            let _ = writeln!(out, "| {name} | {kind} | {} | {shown_by} |", property.verdict());
-        }
-        out.push('\n');
-        out
+        let Self { profile, bounds, .. } = self;
+        let [worlds, properties] = [self.worlds(), self.properties()].map(|it| it.markdown());
+        format!("### {profile} profile, {bounds} bounds\n\n{worlds}\n{properties}\n")
+    }
+
+    /// The worlds with their sizes.
+    pub fn worlds(&self) -> Rows {
+        let columns: [Column<WorldRow>; 10] = [
+            text("world", |it| it.name.to_owned()),
+            number("requester: states", |it| grouped(wide(it.requester_states))),
+            number("steps compared", |it| grouped(wide(it.steps_compared))),
+            number("states", |it| grouped(wide(it.states))),
+            number("moves", |it| grouped(it.moves)),
+            number("depth", |it| it.depth.to_string()),
+            number("seconds", |it| format!("{:.1}", it.seconds)),
+            number("MB", |it| it.bytes.div_ceil(1 << 20).to_string()),
+            number("stateright: states", |it| {
+                let none = || String::from("not asked");
+                it.stateright_states.map_or_else(none, |it| grouped(wide(it)))
+            }),
+            number("seconds", |it| {
+                it.stateright_seconds.map_or_else(String::new, |it| format!("{it:.1}"))
+            }),
+        ];
+        Rows::new(&self.worlds, &columns)
+    }
+
+    /// The properties with their verdicts over all worlds, and what shows that they are not empty.
+    pub fn properties(&self) -> Rows {
+        let columns: [Column<PropertyRow>; 4] = [
+            text("property", |it| it.name.clone()),
+            text("", |it| it.kind.to_owned()),
+            text("verdict", PropertyRow::verdict),
+            text("shown by (moves)", |it| it.shown_by.clone()),
+        ];
+        Rows::new(&self.properties, &columns)
     }
 }
 

@@ -78,18 +78,25 @@ impl ClaimSource {
             || claim.id.contains(&name.replace(' ', "_"))
     }
 
+    /// Whether one of these names means the claim; all are wanted where there are none.
+    pub fn is_wanted(self, names: &[String], claim: &Claim) -> bool {
+        names.is_empty() || names.iter().any(|name| self.is_meant(name, claim))
+    }
+
     /// The claims that are wanted, judged. Errors are those of talking to the engines.
-    pub fn lines(self, settings: &Settings, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
-        let names = &settings.names;
-        let is_wanted =
-            |line: &Claim| names.is_empty() || names.iter().any(|name| self.is_meant(name, line));
-        let claims: Vec<Claim> = self.claims()?.into_iter().filter(is_wanted).collect();
+    pub fn lines(
+        self,
+        settings: &Settings,
+        is_wanted: &impl Fn(Self, &Claim) -> bool,
+        bar: &ProgressBar,
+    ) -> io::Result<Vec<Claim>> {
+        let claims = self.wanted(is_wanted)?;
         if claims.is_empty() {
             return Ok(claims);
         }
         bar.set_length(u64::try_from(claims.len()).unwrap_or(u64::MAX));
         let lines = match self {
-            Self::Theorems | Self::Gappa | Self::Doubles => solvers::judge(claims, bar),
+            Self::Theorems | Self::Gappa | Self::Doubles => solvers::judge(self, claims, bar),
             Self::Exploration => Ok(exploration::judge(claims, bar)),
             Self::Laws => Ok(laws::judge(claims, bar)),
             Self::Harnesses => harnesses::judge(claims, settings, bar),
@@ -97,4 +104,46 @@ impl ClaimSource {
         bar.finish_and_clear();
         lines
     }
+
+    fn wanted(self, is_wanted: &impl Fn(Self, &Claim) -> bool) -> io::Result<Vec<Claim>> {
+        Ok(self.claims()?.into_iter().filter(|claim| is_wanted(self, claim)).collect())
+    }
+}
+
+/// An engine that is not here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// The engine.
+    pub engine: &'static str,
+    /// How many of the claims that are wanted nothing else proves.
+    pub claims: usize,
+    /// Where it comes from.
+    pub package: &'static str,
+}
+
+/// The engines that are wanted and not here. Errors are those of reading the lists of claims, and what
+/// `scripts/prove-wasm` wrote.
+pub fn missing(
+    settings: &Settings,
+    is_wanted: &impl Fn(ClaimSource, &Claim) -> bool,
+) -> io::Result<Vec<Missing>> {
+    let mut missing = Vec::new();
+    for source in ClaimSource::ALL {
+        let wanted = source.wanted(is_wanted)?;
+        let (claims, engine, package) = match source {
+            ClaimSource::Exploration | ClaimSource::Laws => continue,
+            ClaimSource::Harnesses => {
+                let claims = harnesses::not_compiled(&wanted, settings)?;
+                (claims, harnesses::COMPILED, harnesses::PACKAGE)
+            }
+            ClaimSource::Theorems | ClaimSource::Gappa | ClaimSource::Doubles => {
+                let claims = if solvers::is_here(source) { 0 } else { wanted.len() };
+                (claims, source.name(), solvers::package(source))
+            }
+        };
+        if claims > 0 {
+            missing.push(Missing { engine, claims, package });
+        }
+    }
+    Ok(missing)
 }

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 pub struct Settings {
     /// Only lines whose id contains one of these, or of such an engine; all without any.
     pub names: Vec<String>,
+    /// A list of the claims that have to be proved, which alone are run.
+    pub required: Option<PathBuf>,
     /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
     pub cbmc: PathBuf,
     /// The checkout that these have to be about.

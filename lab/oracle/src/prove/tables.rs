@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 use super::claim::{Claim, EngineAnswer, Status};
+use super::engines::Missing;
 
 /// Width of a table, characters.
 const WIDTH: u16 = 150;
@@ -32,6 +33,15 @@ pub fn text(lines: &[Claim]) -> String {
     let trimmed: String =
         table.to_string().lines().flat_map(|line| [line.trim_end(), "\n"]).collect();
     format!("{trimmed}{}\n", counts(lines))
+}
+
+/// The engines that are not here, a line for each.
+pub fn missing(missing: &[Missing]) -> String {
+    let line = |it: &Missing| {
+        let Missing { engine, claims, package } = it;
+        format!("{engine} is missing (claims: {claims}): {package}\n")
+    };
+    missing.iter().map(line).collect()
 }
 
 /// For documents: the number of verdicts of each engine, then every line. A domain that is that of the line before

@@ -2,7 +2,7 @@
 
 use mufasa_conform::Scale;
 
-use crate::{always_safe, folder, judged, mufasa, right, safe_where, summary, with_vectors};
+use crate::{always_safe, safe_where, with_vectors};
 
 const LEAST: &str = "--kinds cycle --cases 0 --profile paper";
 
@@ -46,27 +46,6 @@ fn a_class_of_vectors_alone_is_a_disagreement() {
     let run = with_vectors("vectors-none", "--kinds cycle --cases 40 --no-vectors", &script);
     assert_eq!(run.code, Some(0), "{}", run.told);
     assert!(!run.told.contains("vectors asked"), "{}", run.told);
-}
-
-/// Each vector is asked in one shard; the merged summary says what disagreed.
-#[test]
-fn shards_divide_the_vectors() {
-    let whole = with_vectors("vectors-whole", LEAST, &right()).summary();
-    let parts = folder("vectors-parts");
-    for shard in 0..3 {
-        judged(&parts, &format!("{LEAST} --shard {shard}/3"), &always_safe());
-    }
-    let files = [0, 1, 2].map(|it| parts.join(format!("summary.{it}-of-3.json")));
-    let out = [&files[..], &["--out".into(), parts.clone()]].concat();
-    let (_, told) = mufasa("conform merge", &out);
-    let merged = summary(&parts);
-    assert!(whole.vectors > 400, "{}", whole.vectors);
-    assert_eq!(merged.vectors, whole.vectors, "{told}");
-    let mut once = merged.wrong_vectors();
-    assert!(once.len() > 40, "{told}");
-    once.sort_unstable();
-    once.dedup();
-    assert_eq!(once.len(), merged.wrong_vectors().len());
 }
 
 /// Vectors and cases that are not asked are counted apart.

@@ -1,379 +1,251 @@
-//! The built program: exit codes, bad input, outputs.
+//! The built program's command line: exit codes and outputs.
 
-use std::ffi::OsStr;
-use std::fs;
+use std::fs::{self, File};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
-use crate::kit::folder;
+use crate::kit::{folder, lines, mufasa, said, small, with_input, write};
 use mufasa_records::cycle_to_line;
 use roxmltree::Document;
 use serde_json::Value;
 
-fn mufasa(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the program starts")
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().expect("the program ends by itself")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    let text = String::from_utf8(output.stderr.clone()).unwrap();
-    assert!(!text.contains("panicked"), "{text}");
-    text
-}
-
-/// A drive of `count` cycles as JSON Lines; those in `blocked` are unsafe.
-fn lines(folder: &Path, name: &str, count: u32, blocked: &[u32]) -> String {
-    let line = |index| {
-        cycle_to_line(
-            &format!("{name}-{index}"),
-            &crate::common::cycle(index, blocked.contains(&index)),
-        )
-    };
-    let text: Vec<_> = (0..count).map(line).collect();
-    write(folder, &format!("{name}.jsonl"), text.join("\n"))
-}
-
-fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> String {
-    let file = folder.join(name);
-    fs::write(&file, content).unwrap();
-    file.to_str().unwrap().to_owned()
-}
+const PROJECT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 #[test]
-fn exit_code_0_when_every_cycle_is_safe() {
-    let folder = folder("safe");
-    let output = mufasa(["check", &lines(&folder, "safe", 5, &[])]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let text = stdout(&output);
-    assert!(text.contains("5 cycles, AllRemote, hardened: 5 safe, 0 unsafe"), "{text}");
-    assert!(text.ends_with("0 fallbacks, 5 offloaded; model and implementation agree\n"), "{text}");
-    assert_eq!(stderr(&output), "");
-}
-
-#[test]
-fn exit_code_1_when_a_cycle_is_unsafe() {
-    let folder = folder("unsafe");
-    let output = mufasa(["check", &lines(&folder, "unsafe", 5, &[2])]);
-    assert_eq!(code(&output), 1);
-    assert!(stdout(&output).contains("at 0.2 s: stage iii, point 3 meets track 7"));
-}
-
-#[test]
-fn exit_code_2_for_every_kind_of_bad_file_and_the_others_are_still_checked() {
-    let folder = folder("bad");
-    let good = lines(&folder, "good", 2, &[1]);
-    let bad = [
-        folder.join("missing.xml").to_str().unwrap().to_owned(),
-        folder.to_str().unwrap().to_owned(),
-        write(&folder, "empty", ""),
-        write(&folder, "binary", [0_u8, 255, 254, 0, 7]),
-        write(&folder, "text", "hello"),
-        write(&folder, "cut.xml", "<commonRoad><lanelet"),
-        write(&folder, "other.xml", "<html/>"),
-        write(&folder, "cut.jsonl", "{\"kind\": \"cycle\""),
-        write(&folder, "other.jsonl", "{\"kind\": \"cycle\", \"id\": \"x\", \"speed\": 1}"),
-        write(&folder, "cut.npy", b"\x93NUMPY\x01\x00"),
-    ];
-    for file in &bad {
-        let output = mufasa(["check", file, &good]);
-        let message = stderr(&output);
-        assert_eq!(code(&output), 2, "{file}: {message}");
-        assert!(message.contains(file), "{file}: {message}");
-        assert!(stdout(&output).contains("2 cycles, AllRemote, hardened: 1 safe"), "{file}");
-    }
-    let all: Vec<_> = ["check", "--summary"].into_iter().chain(bad.iter().map(|s| &**s)).collect();
-    let output = mufasa(all);
-    assert_eq!((code(&output), stderr(&output).lines().count()), (2, bad.len()));
-}
-
-#[test]
-fn invalid_local_input_is_an_error_with_cycle_field_and_index() {
-    let folder = folder("invalid");
+fn exit_codes_and_sums_of_drives() {
+    let folder = folder("codes");
+    let [safe, blocked] = [lines(&folder, "a", 6, &[]), lines(&folder, "b", 3, &[2])];
+    let ended = mufasa(&["check", &safe]);
+    ended.has(0, "6 cycles, AllRemote, hardened: 6 safe, 0 unsafe", "");
+    let end = "0 fallbacks, 6 offloaded; model and implementation agree\n";
+    assert!(ended.out.ends_with(end) && ended.err.is_empty(), "{}", ended.out);
+    mufasa(&["check", &blocked]).has(1, "at 0.2 s: stage iii, point 3 meets track 7", "");
     let mut cycle = crate::common::cycle(0, false);
-    cycle.detections.as_mut().unwrap().items[0].x = f64::NAN;
-    let file = write(&folder, "invalid.jsonl", cycle_to_line("the id", &cycle));
-    let output = mufasa(["check", &file]);
-    let message = stderr(&output);
-    assert_eq!(code(&output), 2);
-    assert!(message.contains("cycle the id: detections.items.x[0]: "), "{message}");
-    assert!(stdout(&output).contains("1 error"));
-}
-
-#[test]
-fn arguments_that_make_no_sense_are_refused() {
-    let folder = folder("arguments");
-    let good = lines(&folder, "good", 1, &[]);
-    for arguments in [
-        &["check"][..],
-        &["nonsense"],
-        &["check", &good, "--profile", "soft"],
-        &["check", &good, "--configuration", "Remote"],
-        &["check", &good, "--sensor-range", "nan"],
-        &["check", &good, "--sensor-probability", "1.5"],
-        &["check", &good, "--horizon", "1e9"],
-        &["check", &good, "--grid-width", "0"],
-        &["check", &good, "--grid-width", "-1"],
-        &["check", &good, "--ego", "99999999999999999999"],
-        &["check", &good, "--seed", "x"],
-        &["check", &good, "--inject", "nothing"],
-        &["check", &good, "--inject", "wrong-map@x..2"],
-        &["check", &good, "--inject", "wrong-map@3..2"],
-        &["check", &good, "--inject", "wrong-map@2..2"],
-        &["check", &good, "--json", "--summary"],
-        &["compose"],
+    cycle.detections.as_mut().expect("some").items[0].x = f64::NAN;
+    let invalid = write(&folder, "invalid.jsonl", cycle_to_line("the id", &cycle));
+    mufasa(&["check", &invalid]).has(2, "1 error", "cycle the id: detections.items.x[0]: ");
+    let sum = mufasa(&["check", "--summary", &safe, &blocked]).out;
+    let line = sum.lines().find(|line| line.starts_with("all 2 drives")).expect("a sum");
+    let words: Vec<_> = line.split_whitespace().skip(3).collect();
+    assert_eq!(words[..8], ["9", "8", "1", "0", "0", "1", "0", "0"], "{sum}");
+    assert!(!sum.contains("fallbacks:"), "{sum}");
+    let attacked = mufasa(&["check", &safe, "--inject", "ghost-tracks@0.2..0.3"]);
+    attacked.has(1, "6 cycles, AllRemote, hardened: 4 safe, 2 unsafe", "");
+    cycle = crate::common::cycle(0, false);
+    cycle.configuration = mufasa_model::services::configuration::Configuration::PlanRemote;
+    let local = write(&folder, "local.jsonl", cycle_to_line("local", &cycle));
+    for (file, attack, problem) in [
+        (&safe, "ghost-tracks@90..100", "the drive ends at 0.5 s"),
+        (&local, "ghost-tracks", "received tracks, which are local in PlanRemote"),
     ] {
-        let output = mufasa(arguments);
-        assert_eq!(code(&output), 2, "{arguments:?}");
-        assert!(!stderr(&output).is_empty(), "{arguments:?}");
-        assert!(output.stdout.is_empty(), "{arguments:?}");
+        let told = mufasa(&["check", file, "--inject", attack]);
+        told.has(2, "", problem);
+        assert!(told.err.contains(file.as_str()) && !told.out.contains("1 safe"), "{}", told.out);
     }
-}
-
-#[test]
-fn parameters_files_are_read_and_their_errors_name_the_line() {
-    let folder = folder("parameters");
-    let good = lines(&folder, "good", 3, &[1]);
-    let parameters = write(&folder, "good.toml", "t_wait_ns = 100_000_000\n");
-    let output = mufasa(["check", &good, "--parameters", &parameters]);
-    assert_eq!(code(&output), 1);
-    assert!(stdout(&output).contains("wait until 0.2 s"), "{}", stdout(&output));
-    for (text, problem) in [
-        ("\nspeed = 3", ":2: speed: is no parameter; "),
-        ("theta_tr = -1.0", ":1: theta_tr: "),
-        ("t_wait_ns = 1.5", ":1: t_wait_ns: must be an integer"),
-        ("= 3", ":1: is not TOML"),
-    ] {
-        let file = write(&folder, "bad.toml", text);
-        let output = mufasa(["check", &good, "--parameters", &file]);
-        let message = stderr(&output);
-        assert_eq!(code(&output), 2);
-        assert!(message.contains(&format!("{file}{problem}")), "{message}");
-    }
-    let output = mufasa(["check", &good, "--parameters", "missing.toml"]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("missing.toml: cannot be read"));
 }
 
 #[test]
 fn json_output_is_one_valid_record_per_cycle_and_drive() {
     let folder = folder("json");
     let files = [lines(&folder, "a", 3, &[1]), lines(&folder, "b", 2, &[])];
-    let output = mufasa(["check", "--json", &files[0], &files[1]]);
-    assert_eq!(code(&output), 1);
-    let records: Vec<Value> =
-        stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    let kinds: Vec<_> = records.iter().map(|record| record["kind"].as_str().unwrap()).collect();
+    let told = mufasa(&["check", "--json", &files[0], &files[1]]);
+    told.has(1, "", "");
+    let records = told.out.lines().map(|line| serde_json::from_str(line).expect("JSON"));
+    let records: Vec<Value> = records.collect();
+    let kinds: Vec<_> = records.iter().map(|it| it["kind"].as_str().expect("a kind")).collect();
     let cycles = |count| vec!["checked_cycle"; count];
     let expected = [cycles(3), vec!["checked_drive"], cycles(2), vec!["checked_drive", "checked"]];
     assert_eq!(kinds, expected.concat());
-    let failed = &records[1];
-    assert_eq!(failed["answer"]["id"], "a-1");
-    assert_eq!(failed["answer"]["verdict"], "unsafe");
-    assert_eq!(failed["answer"]["strict"], "unsafe");
-    assert_eq!(failed["answer"]["stages"]["iii"]["witness"]["track"], 7);
-    assert_eq!(failed["implementation"]["failed_stage"], "iii");
-    assert!(failed["disagreement"].is_null());
-    assert_eq!(records[3]["model"]["fallbacks"][0]["hold"], "started");
-    assert_eq!(records[3]["model"]["stages"][2]["failed"], 1);
-    assert_eq!(records[7 - 1]["kind"], "checked_drive");
-    let last = records.last().unwrap();
-    assert_eq!(
-        (&last["cycles"], &last["unsafe"], &last["disagreements"]),
-        (&5.into(), &1.into(), &0.into())
-    );
+    for (record, place, value) in [
+        (1, "/answer/id", Value::from("a-1")),
+        (1, "/answer/verdict", "unsafe".into()),
+        (1, "/answer/strict", "unsafe".into()),
+        (1, "/answer/stages/iii/witness/track", 7.into()),
+        (1, "/implementation/failed_stage", "iii".into()),
+        (1, "/disagreement", Value::Null),
+        (3, "/model/fallbacks/0/hold", "started".into()),
+        (3, "/model/stages/2/failed", 1.into()),
+        (6 + 1, "/cycles", 5.into()),
+        (6 + 1, "/unsafe", 1.into()),
+        (6 + 1, "/disagreements", 0.into()),
+    ] {
+        assert_eq!(records[record].pointer(place), Some(&value), "{record} {place}");
+    }
 }
 
 #[test]
-fn pictures_of_unsafe_cycles_are_complete_and_show_the_witness() {
+fn pictures_of_unsafe_cycles_show_the_witness_and_do_not_overwrite_each_other() {
     let folder = folder("pictures");
     let file = lines(&folder, "p", 4, &[1, 3]);
     let pictures = folder.join("new/folder");
-    let output = mufasa(["check", &file, "--svg", pictures.to_str().unwrap()]);
-    assert_eq!(code(&output), 1);
-    assert!(stdout(&output).contains("2 pictures"));
-    let mut names: Vec<_> = fs::read_dir(&pictures)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let place = pictures.to_str().expect("a plain name");
+    mufasa(&["check", &file, &file, "--svg", place]).has(1, "4 pictures", "");
+    let entries =
+        fs::read_dir(&pictures).expect("a folder").map(|entry| entry.expect("one").path());
+    let mut names: Vec<_> = entries.map(|it| it.display().to_string()).collect();
     names.sort();
-    assert_eq!(names.len(), 2);
-    for (name, index) in names.iter().zip([1, 3]) {
-        assert!(name.ends_with(&format!("-000{index}-iii.svg")), "{name}");
-        let text = fs::read_to_string(pictures.join(name)).unwrap();
-        let document = Document::parse(&text).unwrap();
+    assert_eq!(names.len(), 4);
+    for index in [1, 3] {
+        let end = format!("-000{index}-iii.svg");
+        assert_eq!(names.iter().filter(|name| name.ends_with(&end)).count(), 2, "{names:?}");
+    }
+    for name in &names {
+        let text = fs::read_to_string(name).expect("a picture");
+        let document = Document::parse(&text).expect("XML");
         let witness = document.descendants().find(|node| node.attribute("id") == Some("witness"));
-        assert_eq!(witness.unwrap().attribute("data-stage"), Some("iii"));
+        assert_eq!(witness.expect("one").attribute("data-stage"), Some("iii"));
     }
-}
-
-#[test]
-fn a_folder_that_cannot_be_written_is_refused_before_the_work() {
-    let folder = folder("unwritable");
-    let file = lines(&folder, "p", 2, &[1]);
+    // A folder that cannot be written is refused before the work.
     let below_a_file = format!("{file}/pictures");
-    let output = mufasa(["check", &file, "--svg", &below_a_file]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains(&below_a_file));
-    assert!(output.stdout.is_empty());
+    let told = mufasa(&["check", &file, "--svg", &below_a_file]);
+    told.has(2, "", &below_a_file);
+    assert!(told.out.is_empty());
 }
 
+/// The look at what a file is once took the first bytes of a pipe away; two readers of one input would each get a part.
 #[test]
-fn the_table_over_all_drives_sums_them() {
-    let folder = folder("summary");
-    let files = [lines(&folder, "a", 3, &[1]), lines(&folder, "b", 2, &[])];
-    let output = mufasa(["check", "--summary", &files[0], &files[1]]);
-    let text = stdout(&output);
-    let sum = text.lines().find(|line| line.starts_with("all 2 drives")).unwrap();
-    let words: Vec<_> = sum.split_whitespace().skip(3).collect();
-    assert_eq!(words[..8], ["5", "4", "1", "0", "0", "1", "0", "0"], "{text}");
-    assert!(!text.contains("fallbacks:"), "{text}");
-}
-
-#[test]
-fn pictures_of_drives_with_the_same_name_do_not_overwrite_each_other() {
-    let folder = folder("same");
-    let file = lines(&folder, "a", 2, &[1]);
-    let pictures = folder.join("pictures");
-    let output = mufasa(["check", &file, &file, "--svg", pictures.to_str().unwrap()]);
-    assert_eq!(code(&output), 1);
-    assert_eq!(fs::read_dir(&pictures).unwrap().count(), 2);
-}
-
-#[test]
-fn an_attack_is_injected_and_caught() {
-    let folder = folder("inject");
-    let file = lines(&folder, "a", 6, &[]);
-    let output = mufasa(["check", &file, "--inject", "ghost-tracks@0.2..0.3"]);
-    let text = stdout(&output);
-    assert_eq!(code(&output), 1, "{text}");
-    assert!(text.contains("6 cycles, AllRemote, hardened: 4 safe, 2 unsafe"), "{text}");
-    assert!(text.contains("at 0.2 s: stage i"), "{text}");
-}
-
-#[test]
-fn an_attack_that_changes_nothing_is_bad_input() {
-    let folder = folder("inject_nothing");
-    let file = lines(&folder, "a", 6, &[]);
-    let mut local = crate::common::cycle(0, false);
-    local.configuration = mufasa_model::services::configuration::Configuration::PlanRemote;
-    let local = write(&folder, "local.jsonl", cycle_to_line("local", &local));
-    for (file, attack, problem) in [
-        (&file, "ghost-tracks@90..100", "the drive ends at 0.5 s"),
-        (&local, "ghost-tracks", "received tracks, which are local in PlanRemote"),
-    ] {
-        let output = mufasa(["check", file, "--inject", attack]);
-        let message = stderr(&output);
-        assert_eq!(code(&output), 2, "{message}");
-        assert!(message.contains(file.as_str()) && message.contains(problem), "{message}");
-        assert!(!stdout(&output).contains("1 safe"), "{}", stdout(&output));
-    }
-}
-
-#[test]
-fn files_are_counted_and_not_their_lines() {
-    let folder = folder("wrong_lines");
-    let file = write(&folder, "wrong.jsonl", "{}\n".repeat(30));
-    let output = mufasa(["check", &file]);
-    let message = stderr(&output);
-    assert_eq!((code(&output), message.lines().count()), (2, 11), "{message}");
-    assert!(message.trim_end().ends_with("and 20 more lines"), "{message}");
-    assert!(
-        stdout(&output).contains("1 file with something that could not be read"),
-        "{}",
-        stdout(&output)
-    );
-}
-
-#[test]
-fn a_reader_that_goes_away_ends_the_program_quietly() {
-    let folder = folder("pipe");
-    let file = lines(&folder, "a", 300, &[]);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .args(["check", "--json", &file])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(stderr(&output), "");
-    assert_eq!(code(&output), 141);
-}
-
-/// The look at what a file is once took the first bytes of a pipe away.
-#[test]
-fn standard_input_is_checked_from_its_first_byte() {
-    let folder = folder("standard_input");
-    let file = lines(&folder, "a", 3, &[0]);
+fn standard_input_is_read_from_its_first_byte_and_by_one() {
+    let file = lines(&folder("standard_input"), "a", 3, &[0]);
     for stdin in ["/dev/stdin", "-"] {
-        let mut cat = Command::new("cat").arg(&file).stdout(Stdio::piped()).spawn().unwrap();
-        let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
-            .args(["check", "--summary", stdin])
-            .stdin(cat.stdout.take().unwrap())
-            .output()
-            .unwrap();
-        assert!(cat.wait().unwrap().success());
-        assert_eq!(code(&output), 1, "{}", stderr(&output));
-        assert!(stdout(&output).contains("3 cycles: 2 safe, 1 unsafe"), "{}", stdout(&output));
+        let mut cat = Command::new("cat").arg(&file).stdout(Stdio::piped()).spawn().expect("cat");
+        let told = with_input(&["check", "--summary", stdin], cat.stdout.take().expect("a pipe"));
+        assert!(cat.wait().expect("it ends").success());
+        told.has(1, "3 cycles: 2 safe, 1 unsafe", "");
     }
+    let scenario = || File::open(&small()[0]).expect("a scenario");
+    let second = "`-` stands here a second time, and standard input comes once";
+    for files in [["-", "-"], ["-", "/dev/stdin"]] {
+        let told = with_input(&["check", "--summary", files[0], files[1]], scenario());
+        told.has(2, "", second);
+        assert_eq!(told.err.lines().count(), 1, "{}", told.err);
+    }
+    let told = with_input(&["check", "--parameters", "-", "-"], scenario());
+    told.has(2, "", "mufasa: --parameters -: standard input is one of FILES");
 }
 
 /// TOOL-01
 #[test]
 fn the_oracle_answers_standard_input() {
-    let folder = folder("oracle");
-    let file = lines(&folder, "a", 2, &[1]);
-    let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .arg("oracle")
-        .stdin(fs::File::open(file).unwrap())
-        .output()
-        .unwrap();
-    assert_eq!(code(&output), 0);
-    let verdicts: Vec<Value> =
-        stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert_eq!(verdicts.len(), 2);
-    assert_eq!(
-        (&verdicts[0]["verdict"], &verdicts[1]["verdict"]),
-        (&"safe".into(), &"unsafe".into())
-    );
+    let file = lines(&folder("oracle"), "a", 2, &[1]);
+    let told = with_input(&["oracle"], File::open(file).expect("written"));
+    let answers = told.out.lines().map(|line| serde_json::from_str::<Value>(line).expect("JSON"));
+    let verdicts: Vec<_> = answers.map(|it| it["verdict"].clone()).collect();
+    assert_eq!((told.code, verdicts), (Some(0), vec!["safe".into(), "unsafe".into()]));
 }
 
 #[test]
-fn compositions_are_found_drawn_and_refused() {
+fn compositions_are_found_and_drawn() {
     let folder = folder("compose");
     let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/fig2.json");
-    let output = mufasa(["compose", services]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert!(!output.stdout.is_empty());
-    let output = mufasa(["compose", services, "--dot"]);
-    assert!(stdout(&output).starts_with("digraph"));
-    let picture = folder.join("fig2.svg");
-    let output = mufasa(["compose", services, "--svg", picture.to_str().unwrap()]);
-    assert_eq!(code(&output), 0);
-    assert!(Document::parse(&fs::read_to_string(&picture).unwrap()).is_ok());
-    for bad in [write(&folder, "bad.json", "{"), folder.join("missing").to_str().unwrap().into()] {
-        let output = mufasa(["compose", &bad]);
-        assert_eq!(code(&output), 2);
-        assert!(stderr(&output).contains(&bad));
+    said(&folder, &["compose", services, "--svg", "fig2.svg"]).has(0, "8 compositions", "");
+    assert!(Document::parse(&fs::read_to_string(folder.join("fig2.svg")).expect("drawn")).is_ok());
+    assert!(mufasa(&["compose", services, "--dot"]).out.starts_with("digraph"));
+}
+
+/// In a checkout with git the commit, elsewhere the version alone.
+#[test]
+fn the_version_says_the_commit_of_a_checkout() {
+    let told = mufasa(&["--version"]).out;
+    let version = concat!("mufasa ", env!("CARGO_PKG_VERSION"));
+    let is_here = |commit: &str| {
+        let object = format!("{commit}^{{commit}}");
+        let done = Command::new("git").args(["-C", PROJECT, "cat-file", "-e", &object]).status();
+        done.is_ok_and(|status| status.success())
+    };
+    if Path::new(PROJECT).join(".git").exists() && is_here("HEAD") {
+        let commit = told.strip_prefix(&format!("{version} (commit ")).expect("a commit");
+        let commit = commit.strip_suffix(")\n").expect("nothing else");
+        assert!(commit.len() >= 10 && is_here(commit), "{told}");
+    } else {
+        assert_eq!(told, format!("{version}\n"));
     }
 }
 
 #[test]
-fn help_is_no_error() {
-    for arguments in [&["--help"][..], &["check", "--help"], &["--version"]] {
-        let output = mufasa(arguments);
-        assert_eq!(code(&output), 0);
-        assert!(!output.stdout.is_empty());
+fn what_is_written_without_a_named_folder_is_said_first() {
+    let folder = folder("unnamed");
+    let first = |arguments: &[&str], code, usual: &str| {
+        let told = said(&folder, arguments);
+        told.has(code, "", "");
+        let words = format!("mufasa: writes into {usual}/; --out names another folder");
+        assert_eq!(told.err.lines().next(), Some(words.as_str()));
+    };
+    first(&["explore", "--world", "nope"], 2, "exploration");
+    first(&["conform", "--", "./not-there"], 2, "mufasa-conform");
+    // Neither has begun, and nothing is left that looks like a result.
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 0);
+    for command in ["vectors", "man", "schemas"] {
+        first(&[command], 0, command);
+        assert!(folder.join(command).is_dir());
+        assert_eq!(said(&folder, &[command, "--out", "there"]).err, "");
     }
+}
+
+#[test]
+fn shells_complete_and_every_command_has_help_and_a_page() {
+    for (shell, word) in [
+        ("bash", "complete -F _mufasa"),
+        ("zsh", "#compdef mufasa"),
+        ("fish", "complete -c mufasa"),
+    ] {
+        mufasa(&["completions", shell]).has(0, word, "");
+    }
+    let help = mufasa(&["--help"]).out;
+    let list = help.split_once("Commands:\n").expect("a list of commands").1;
+    let list = list.split_once("\n\n").expect("options behind it").0;
+    let names = list.lines().filter_map(|line| line.split_ascii_whitespace().next());
+    let commands: Vec<_> = names.filter(|it| *it != "help").collect();
+    assert!(commands.contains(&"vehicle") && commands.contains(&"station"), "{commands:?}");
+    let completions = mufasa(&["completions", "bash"]).out;
+    let folder = folder("man");
+    said(&folder, &["man", "--out", "."]).has(0, "", "");
+    assert!(folder.join("mufasa.1").exists());
+    for command in commands {
+        let page = fs::read_to_string(folder.join(format!("mufasa-{command}.1")));
+        assert!(page.expect("there is a page").contains(".SH DESCRIPTION"), "{command}");
+        assert!(completions.contains(&format!("mufasa__subcmd__{command}")), "{command}");
+        // What writes once for other programs has no results.
+        let has_codes = mufasa(&[command, "--help"]).out.contains("\nExit codes: ");
+        assert_eq!(has_codes, command != "completions", "{command}");
+    }
+    let help = mufasa(&["conform", "--help"]).out;
+    for part in
+        ["one JSON record per line", "one answer", "spec/5-interfaces.md", "-- node program.mjs"]
+    {
+        assert!(help.contains(part), "{part}: {help}");
+    }
+}
+
+/// What is said of progress where standard error is no terminal.
+#[test]
+fn verbose_shows_progress_as_lines_and_quiet_shows_none() {
+    let [scenario, solution] = small();
+    let told = |option: &[&str]| {
+        mufasa(&[&["check", "--summary", &scenario, &solution], option].concat()).err
+    };
+    assert_eq!((told(&["-q"]), told(&[])), (String::new(), String::new()));
+    let lines = told(&["-v"]);
+    assert!(lines.lines().count() > 0, "no line");
+    let is_progress = |line: &str| line.contains(" cycles, ") && line.ends_with(" left");
+    assert!(lines.lines().all(is_progress), "{lines}");
+}
+
+/// What was counted until then is written, and says so.
+#[cfg(unix)]
+#[test]
+fn a_vehicle_that_is_interrupted_says_so() {
+    let file = folder("interrupted").join("vehicle.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let command = command.args(["vehicle", "--quiet", "--json"]).arg(&file);
+    let mut vehicle = command.stdout(Stdio::null()).spawn().expect("the program starts");
+    thread::sleep(Duration::from_secs(1));
+    let killed = Command::new("kill").args(["-INT", &vehicle.id().to_string()]).status();
+    assert!(killed.expect("kill is there").success());
+    assert_eq!(vehicle.wait().expect("it ends").code(), Some(130));
+    let summary = fs::read_to_string(&file).expect("written");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    assert_eq!(summary["interrupted"], true);
+    assert!(summary["cycles"].as_u64().expect("a count") < 188);
 }

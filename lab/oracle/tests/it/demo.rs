@@ -77,7 +77,7 @@ fn the_documents_show_it(hardened: &str, paper: &str, picture: &str) {
     }
     let why = "UPDATE_DOCS=1 cargo test -p mufasa-oracle --test demo";
     assert_eq!(document::read(&page, "mufasa demo").unwrap().trim(), table.trim(), "{why}");
-    assert_eq!(fs::read_to_string(kept).unwrap(), picture, "{why}");
+    assert!(fs::read_to_string(kept).unwrap() == picture, "{why}");
 }
 
 #[test]

@@ -1,18 +1,19 @@
 //! `mufasa explore`, and what is kept of F-12: the vectors and the chart.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use mufasa_exploration::bounds::Bounds;
 use mufasa_exploration::properties::Property;
 use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
 use mufasa_oracle::document;
+use mufasa_oracle::explore;
 use mufasa_oracle::explore::report::ExplorationReport;
-use mufasa_oracle::explore::{self, findings};
 use mufasa_records::{self as json, Record};
 use serde_json::Value;
+
+use crate::kit::{folder, said};
 
 fn kept(name: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vectors/offloading").join(name);
@@ -23,21 +24,6 @@ fn kept(name: &str) -> String {
 fn honest() -> Vec<WorldOutcome> {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
     vec![run::explore(world, Profile::PAPER, 0, |_| {}).unwrap()]
-}
-
-/// F-12 is what the exploration finds today, neither longer nor shorter.
-#[test]
-fn the_kept_vectors_and_chart_of_f_12_are_what_is_found() {
-    let outcomes = honest();
-    let stories = findings::stories(Profile::PAPER, &outcomes).unwrap();
-    let [story] = stories.as_slice() else { panic!("{} stories", stories.len()) };
-    assert_eq!(story.name, "explored-F-12");
-    assert_eq!(
-        story.vectors().unwrap(),
-        kept("explored-F-12.jsonl"),
-        "mufasa explore --out writes it"
-    );
-    assert_eq!(story.chart(), kept("explored-F-12.svg"), "mufasa explore --out writes it");
 }
 
 /// The page has a row for every world and property in both profiles; that of the smallest world is
@@ -90,62 +76,31 @@ fn the_oracle_answers_the_vectors_of_f_12() {
     assert_eq!(stopped, [("paper".to_owned(), true), ("hardened".to_owned(), false)]);
 }
 
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("mufasa-explore-{name}-{}", std::process::id());
-        Self(std::env::temp_dir().join(name))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn run_explore(folder: &Folder, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .arg("explore")
-        .args(arguments)
-        .arg("--out")
-        .arg(&folder.0)
-        .output()
-        .unwrap()
-}
-
+/// F-12 is what the exploration finds today, neither longer nor shorter.
 #[test]
 fn the_program_shows_verdicts_and_writes_what_it_found() {
-    let folder = Folder::new("honest");
-    let output = run_explore(&folder, &["--world", "honest", "--threads", "1"]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{text}");
-    assert!(text.contains("fails after 4 moves (F-12)"), "{text}");
+    let folder = folder("honest");
+    let found = said(&folder, &["explore", "--world", "honest", "--threads", "1", "--out", "."]);
+    found.has(0, "fails after 4 moves (F-12)", "");
     // Both engines in both profiles.
-    assert_eq!(text.matches("5,073").count(), 4, "{text}");
-    assert_eq!(
-        fs::read_to_string(folder.0.join("explored-F-12.jsonl")).unwrap(),
-        kept("explored-F-12.jsonl")
-    );
-    assert_eq!(
-        fs::read_to_string(folder.0.join("explored-F-12.svg")).unwrap(),
-        kept("explored-F-12.svg")
-    );
+    assert_eq!(found.out.matches("5,073").count(), 4, "{}", found.out);
+    for name in ["explored-F-12.jsonl", "explored-F-12.md"] {
+        let text = fs::read_to_string(folder.join(name)).expect("it was written");
+        assert_eq!(text, kept(name), "mufasa explore --out writes it");
+    }
 }
 
 #[test]
 fn nothing_is_found_in_the_hardened_profile() {
-    let folder = Folder::new("hardened");
-    let arguments = ["--profile", "hardened", "--world", "honest", "--threads", "0"];
-    let output = run_explore(&folder, &arguments);
-    assert_eq!(output.status.code(), Some(0));
-    assert!(!String::from_utf8(output.stdout).unwrap().contains("fails"));
-    let files = fs::read_dir(&folder.0).unwrap().map(|file| file.unwrap().file_name());
+    let folder = folder("hardened");
+    let options = ["--profile", "hardened", "--world", "honest", "--threads", "0", "--out", "."];
+    let found = said(&folder, &[&["explore"], &options[..]].concat());
+    assert_eq!((found.code, found.out.contains("fails")), (Some(0), false), "{}", found.out);
+    let files = fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name());
     let mut files: Vec<_> = files.collect();
     files.sort();
     assert_eq!(files, ["exploration.json", "exploration.md"], "no counterexample");
-    let json = fs::read_to_string(folder.0.join("exploration.json")).unwrap();
+    let json = fs::read_to_string(folder.join("exploration.json")).unwrap();
     let reports: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(reports[0]["profile"], "hardened");
     assert_eq!(reports[0]["worlds"][0]["states"], 5073);
@@ -157,15 +112,12 @@ fn nothing_is_found_in_the_hardened_profile() {
 
 #[test]
 fn bad_arguments_are_refused() {
-    let folder = Folder::new("bad");
     for arguments in [
         &["--world", "nowhere"][..],
         &["--bounds", "huge"],
-        &["--threads", "-1"],
         &["--world", "honest", "--serve", "no address"],
     ] {
-        let output = run_explore(&folder, arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(!output.stderr.is_empty(), "{arguments:?}");
+        let told = said(&folder("bad"), &[&["explore", "--out", "."], arguments].concat());
+        assert!(told.code == Some(2) && !told.err.is_empty(), "{arguments:?}");
     }
 }

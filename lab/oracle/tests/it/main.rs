@@ -1,7 +1,6 @@
 //! The built program, and what it is made of; in one binary, for each would link everything.
 
 mod cli;
-mod command_line;
 #[path = "../../../drives/tests/common/mod.rs"]
 mod common;
 mod compose;

@@ -1,121 +1,182 @@
-//! Mistakes on the command line and what is said of them: outputs that nobody reads, inputs named twice, units
-//! forgotten, help that was looked for.
+//! What is said of mistakes on the command line: bad files, arguments and parameters, outputs that nobody reads.
 
-use crate::kit::folder;
-use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
-use std::process::{Command, Output, Stdio};
-use std::thread;
-use std::time::Duration;
+use std::process::{Command, Stdio};
 
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../drives/data/readers/");
+use crate::kit::{Said, first_record, folder, lines, mufasa, said, small, with_input, write};
 
-fn mufasa(arguments: &[&str], input: Stdio, output: Stdio) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    let command = command.args(arguments).stdin(input).stdout(output).stderr(Stdio::piped());
-    command.spawn().expect("the program starts").wait_with_output().expect("it ends")
+#[test]
+fn every_kind_of_bad_file_is_named_and_the_others_are_still_checked() {
+    let folder = folder("bad");
+    let good = lines(&folder, "good", 2, &[1]);
+    let bad = [
+        folder.join("missing.xml").display().to_string(),
+        folder.display().to_string(),
+        write(&folder, "empty", ""),
+        write(&folder, "binary", [0_u8, 255, 254, 0, 7]),
+        write(&folder, "text", "hello"),
+        write(&folder, "cut.xml", "<commonRoad><lanelet"),
+        write(&folder, "other.xml", "<html/>"),
+        write(&folder, "cut.jsonl", "{\"kind\": \"cycle\""),
+        write(&folder, "other.jsonl", "{\"kind\": \"cycle\", \"id\": \"x\", \"speed\": 1}"),
+        write(&folder, "cut.npy", b"\x93NUMPY\x01\x00"),
+    ];
+    for file in &bad {
+        mufasa(&["check", file, &good]).has(2, "2 cycles, AllRemote, hardened: 1 safe", file);
+    }
+    let all: Vec<_> = ["check", "--summary"].into_iter().chain(bad.iter().map(|s| &**s)).collect();
+    let told = mufasa(&all);
+    assert_eq!((told.code, told.err.lines().count()), (Some(2), bad.len()));
+    // Files are counted, and not their lines.
+    let wrong = write(&folder, "wrong.jsonl", "{}\n".repeat(30));
+    let told = mufasa(&["check", &wrong]);
+    told.has(2, "1 file with something that could not be read", "and 20 more lines");
+    assert_eq!(told.err.lines().count(), 11, "{}", told.err);
+    // A file that is called as one of JSON Lines is read so, whatever its first line is.
+    let first = write(&folder, "first.jsonl", format!("xx\n{}\n{{}}\n", first_record()));
+    let told = mufasa(&["check", &first]);
+    told.has(2, "2 lines left out, which are no cycles", "first.jsonl:1");
+    assert!(told.err.contains("first.jsonl:3"), "{}", told.err);
+    assert!(told.err.lines().all(|line| line.starts_with("mufasa: ")), "{}", told.err);
 }
 
-/// What was refused, with standard input as said.
-fn refusal(arguments: &[&str], input: Stdio) -> String {
-    let output = mufasa(arguments, input, Stdio::null());
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-    String::from_utf8(output.stderr).expect("UTF-8")
+/// A solution that cannot be read does not make another vehicle the CAV.
+#[test]
+fn a_broken_solution_is_no_reason_to_drive_another_way() {
+    let folder = folder("broken-solution");
+    let [scenario, solution] = small();
+    let whole = fs::read_to_string(&solution).expect("it is there");
+    let half = &whole[..whole.len() / 2];
+    let cut = write(&folder, "cut.xml", half);
+    let told = mufasa(&["check", &scenario, &cut]);
+    told.has(2, "", &format!("cut.xml:{}: cut off: it ends here", half.lines().count()));
+    assert!(told.out.starts_with("0 drives"), "{}", told.out);
+    // A file that is not there comes between a scenario and its solution.
+    let told = mufasa(&["check", &scenario, "gone.xml", &solution]);
+    told.has(2, "8 cycles", "");
+    assert!(!told.err.contains("no scenario"), "{}", told.err);
 }
 
 #[test]
-fn a_full_disk_or_a_closed_pipe_ends_completions_as_other_outputs() {
-    for shell in ["bash", "zsh", "fish"] {
-        let full = OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
-        let ended = mufasa(&["completions", shell], Stdio::null(), full.into());
-        let told = String::from_utf8(ended.stderr).expect("UTF-8");
-        assert_eq!(ended.status.code(), Some(2), "{told}");
-        assert!(told.starts_with("mufasa: standard input or output: "), "{told}");
-        let (reader, writer) = std::io::pipe().expect("a pipe");
-        drop(reader);
-        let ended = mufasa(&["completions", shell], Stdio::null(), writer.into());
-        assert_eq!((ended.status.code(), ended.stderr), (Some(141), Vec::new()));
+fn arguments_that_make_no_sense_are_refused_with_their_limits() {
+    let behind =
+        "the program under test stands behind `--`: mufasa conform [OPTIONS] -- COMMAND...";
+    let two = concat!(env!("CARGO_MANIFEST_DIR"), "/../../vectors/services/composition.jsonl");
+    let place = env!("CARGO_TARGET_TMPDIR");
+    for (arguments, limits) in [
+        (&["nonsense"][..], "unrecognized subcommand"),
+        (&["check"], "required"),
+        (&["check", "x", "--profile", "soft"], "hardened"),
+        (&["check", "x", "--configuration", "Remote"], "AllRemote"),
+        (
+            &["check", "x", "--horizon", "-1"],
+            "'-1' for '--horizon <S>': must be a number from 0.1 to 60",
+        ),
+        (&["check", "x", "--sensor-range", "nan"], "must be a number from 0 to 10000"),
+        (&["check", "x", "--sensor-probability", "1.5"], "must be a number from 0 to 1"),
+        (&["check", "x", "--track-age", "-3"], "must be a whole number from 0 to 1000"),
+        (&["check", "x", "--grid-width", "1.5"], "must be a whole number from 1 to 4096"),
+        (&["check", "x", "--ego", "99999999999999999999"], "must be a whole number"),
+        (&["check", "x", "--inject", "nothing"], "nothing"),
+        (&["check", "x", "--inject", "wrong-map@3..2"], "3"),
+        (&["check", "x", "--json", "--summary"], "cannot be used with"),
+        (&["check", "-q", "-v", "x"], "cannot be used with"),
+        (&["check", "x", "--parameters", "gone.toml"], "gone.toml: cannot be read"),
+        (&["conform", "--seed", "-7", "--", "x"], "must be a whole number from 0 to "),
+        (&["conform", "--time-limit", "0", "--", "x"], "must be a whole number from 1 to 3600000"),
+        (&["conform", "python3", "x.py"], behind),
+        (&["conform", "--cases", "20", "./x"], behind),
+        (&["conform"], behind),
+        (&["explore", "--threads", "many"], "must be a whole number from 0 to 1024"),
+        (&["evaluate", "--scenarios", "0"], "must be a whole number from 1 to 10000"),
+        (&["evaluate", "replay", "--route", "2"], "must be a whole number from 0 to 1"),
+        (&["compose"], "required"),
+        (&["compose", "gone"], "gone: cannot be read"),
+        (&["compose", two], "one record is composed"),
+        // What cannot be written or read is refused before the work.
+        (&["vehicle", "--json", place], "it is a folder; name a file"),
+        (&["station", "--broker", "amqp://127.0.0.1:1", "--json", place], "it is a folder"),
+        (&["prove", "--out", place, "gappa"], "it is a folder"),
+        (&["prove", "--cbmc", "gone", "gappa"], "gone: is not there; scripts/prove-wasm writes"),
+        (&["evaluate", "replay", "--out", place], "it is a folder"),
+    ] {
+        let told = mufasa(arguments);
+        told.has(2, "", limits);
+        assert!(told.out.is_empty(), "{arguments:?}");
+    }
+    for arguments in
+        [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"], &["conform", "merge"]]
+    {
+        let told = mufasa(arguments).err;
+        assert!(!told.contains(behind), "{arguments:?}: {told}");
     }
 }
 
+/// Nothing is made, and no file is left.
 #[test]
-fn commands_with_results_say_their_exit_codes() {
-    for command in ["check", "compose", "conform", "demo", "explore", "oracle", "prove"] {
-        let help = mufasa(&[command, "--help"], Stdio::null(), Stdio::piped()).stdout;
-        let help = String::from_utf8(help).expect("UTF-8");
-        assert!(help.contains("\nExit codes: 0 "), "{command}: {help}");
+fn a_document_without_the_place_is_refused_first() {
+    let folder = folder("no-place");
+    write(&folder, "page.md", "# A page\n");
+    for arguments in [
+        &["evaluate", "failures"][..],
+        &["evaluate", "falsify"],
+        &["evaluate", "scenes"],
+        &["explore", "--out", "tables"],
+        &["prove", "--out", "prove.json"],
+    ] {
+        for file in ["page.md", "gone.md"] {
+            let told = said(&folder, &[arguments, &["--into", file]].concat());
+            told.has(2, "", "");
+            let words = format!("mufasa: {file}: no table can be put there: ");
+            assert!(told.out.is_empty() && told.err.starts_with(&words), "{}", told.err);
+        }
     }
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
 }
 
-fn scenario() -> Stdio {
-    File::open(format!("{DATA}small-2018b.xml")).expect("a scenario").into()
-}
-
-/// Two readers of one input would each get a part of it.
+/// The file's errors are tested where it is read.
 #[test]
-fn standard_input_is_read_by_one() {
-    let second = "`-` stands here a second time, and standard input comes once";
-    for files in [["-", "-"], ["-", "/dev/stdin"]] {
-        let told = refusal(&["check", "--summary", files[0], files[1]], scenario());
-        assert_eq!(told.lines().count(), 1, "{told}");
-        assert!(told.contains(second), "{told}");
-    }
-    let told = refusal(&["check", "--parameters", "-", "-"], scenario());
-    assert!(told.starts_with("mufasa: --parameters -: standard input is one of FILES"), "{told}");
-}
-
-#[test]
-fn parameters_come_from_standard_input_too() {
-    let file = folder("parameters-piped").join("p.toml");
-    fs::write(&file, "a_b = 6\nthetatr = 1\n").expect("written");
-    let given = File::open(&file).expect("written").into();
-    let told = refusal(&["check", "x", "--parameters", "-"], given);
-    assert_eq!(told, "mufasa: -:2: thetatr: is no parameter; is theta_tr meant?\n");
-}
-
-/// A time that no vehicle has, or one that drops what is in time, ends no check; the monitor would refuse it.
-#[test]
-fn a_time_in_another_unit_is_noted() {
-    let folder = folder("units");
-    let [scenario, solution] =
-        ["small-2018b.xml", "small.KS2.solution.xml"].map(|it| format!("{DATA}{it}"));
-    let noted = |line: &str| {
-        let file = folder.join("p.toml");
-        fs::write(&file, line).expect("written");
-        let file = file.to_str().expect("a plain name");
-        let arguments = ["check", "--summary", &scenario, &solution, "--parameters", file];
-        let ended = mufasa(&arguments, Stdio::null(), Stdio::null());
-        assert_ne!(ended.status.code(), Some(2));
-        String::from_utf8(ended.stderr).expect("UTF-8")
-    };
+fn parameters_are_read_and_what_is_odd_about_them_is_told() {
+    let folder = folder("parameters");
+    let blocked = lines(&folder, "good", 3, &[1]);
+    let of = |line: &str| write(&folder, "p.toml", line);
+    let file = of("t_wait_ns = 100_000_000\n");
+    mufasa(&["check", &blocked, "--parameters", &file]).has(1, "wait until 0.2 s", "");
+    let file = of("theta_tr = 0.2\n\ntheta_tracks_max = 2.0\n");
+    let wrong = ":3: theta_tracks_max: is no parameter; is theta_track_max meant?";
+    mufasa(&["check", "x", "--parameters", &file]).has(2, "", wrong);
+    let given = File::open(&file).expect("written");
+    with_input(&["check", "x", "--parameters", "-"], given).has(
+        2,
+        "",
+        &format!("mufasa: -{wrong}"),
+    );
     for (line, said) in [
+        ("# a_b = 6", "p.toml: no parameter in it; the defaults hold (a line is `name = value`)"),
         ("t_wait_ns = 10", "t_wait_ns = 10 ns is below 1 s; is it in another unit?"),
         ("l_max_ns = 50", "l_max_ns = 50 ns is below 1 ms"),
-        ("max_age_ns = 100", "max_age_ns = 100 ns is below 1 ms"),
         ("max_age_ns = 40_000_000", "max_age_ns = 40000000 is below "),
     ] {
-        let told = noted(line);
-        assert!(told.contains("p.toml: a vehicle's monitor refuses this: "), "{told}");
-        assert!(told.contains(said), "{told}");
+        let told = mufasa(&["check", "--summary", &blocked, "--parameters", &of(line)]);
+        told.has(1, "", said);
+        let refuses = told.err.contains("p.toml: a vehicle's monitor refuses this: ");
+        assert_eq!(refuses, !line.starts_with('#'), "{}", told.err);
     }
-    for line in ["t_wait_ns = 1_000_000_000", "t_wait_ns = 0", "dt_max_ns = 1_000_000", "tau = 0"] {
-        assert_eq!(noted(line), "", "{line}");
+    for line in ["t_wait_ns = 1_000_000_000", "t_wait_ns = 0", "dt_max_ns = 100_000_000"] {
+        let told = mufasa(&["check", "--summary", &blocked, "--parameters", &of(line)]);
+        assert_eq!(told.err, "", "{line}");
     }
 }
 
 /// What the CAV needs to brake is the vehicle's, and follows from the period of its cycles.
 #[test]
 fn a_tau_that_the_vehicle_raises_is_told() {
-    let (folder, scenario) = (folder("tau"), format!("{DATA}small-2018b.xml"));
+    let (folder, [scenario, _]) = (folder("tau"), small());
     let told = |tau: &str, profile: &str| {
-        let file = folder.join("p.toml");
-        fs::write(&file, format!("tau = {tau}\ndt_max_ns = 150_000_000\n")).expect("written");
-        let file = file.to_str().expect("a plain name");
-        let arguments = ["vehicle", &scenario, "--parameters", file, "--profile", profile];
-        let ended = mufasa(&arguments, Stdio::null(), Stdio::piped());
-        let text = String::from_utf8(ended.stdout).expect("UTF-8");
-        assert!(text.contains("checked and safe"), "{text}");
-        text.lines().find(|line| line.contains("tau")).map(str::to_owned)
+        let file = write(&folder, "p.toml", format!("tau = {tau}\ndt_max_ns = 150_000_000\n"));
+        let told = mufasa(&["vehicle", &scenario, "--parameters", &file, "--profile", profile]).out;
+        assert!(told.contains("checked and safe"), "{told}");
+        told.lines().find(|line| line.contains("tau")).map(str::to_owned)
     };
     let raised = "tau is 0.25 s, not 0.2 s: at least 2.5 periods, of 100 ms here (A-07 of docs/assumptions.md)";
     assert_eq!(told("0.2", "hardened").as_deref(), Some(raised));
@@ -124,54 +185,62 @@ fn a_tau_that_the_vehicle_raises_is_told() {
     assert_eq!(told("0.2", "paper"), None);
 }
 
-/// Records name the parameters of their stages; those of the requester are the file's.
+/// Records name the parameters of their stages; those of the requester are the file's. It is said in every format.
 #[test]
-fn parameters_that_recorded_cycles_ignore_are_told() {
+fn options_that_change_nothing_are_said() {
     let folder = folder("ignored");
-    let vectors = include_str!("../../../../vectors/findings/F-30.jsonl");
-    let mut vector: Value =
-        serde_json::from_str(vectors.lines().next().expect("one")).expect("JSON");
-    let cycle = &mut vector["input"];
+    let mut cycle = first_record();
     let lines = [0, 1, 2].map(|index: i64| {
         cycle["now_ns"] = (1_000_000_000 + index * 100_000_000).into();
         cycle.to_string()
     });
-    let [file, of_stages, of_requester] = [
-        ("drive.jsonl", lines.join("\n")),
-        ("stages.toml", String::from("theta_tr = 0.3\ndt_max_ns = 150_000_000\n")),
-        ("requester.toml", String::from("dt_max_ns = 150_000_000\n")),
-    ]
-    .map(|(name, text)| {
-        let file = folder.join(name);
-        fs::write(&file, text).expect("written");
-        file.to_str().expect("a plain name").to_owned()
-    });
-    let told = |arguments: &[&str]| {
-        let ended =
-            mufasa(&[&["vehicle", &file], arguments].concat(), Stdio::null(), Stdio::null());
-        assert_ne!(ended.status.code(), Some(2));
-        let said = String::from_utf8(ended.stderr).expect("UTF-8");
-        said.contains("each cycle has its own profile, configuration and parameters")
-    };
-    assert!(told(&["--parameters", &of_stages]));
-    assert!(told(&["--profile", "paper"]));
-    assert!(!told(&["--parameters", &of_requester]));
-    assert!(!told(&[]));
+    let file = write(&folder, "drive.jsonl", lines.join("\n"));
+    let stages = write(&folder, "stages.toml", "theta_tr = 0.3\ndt_max_ns = 150_000_000\n");
+    let requester = write(&folder, "requester.toml", "dt_max_ns = 150_000_000\n");
+    for format in [&[][..], &["--summary"], &["--json"]] {
+        for (more, is_said) in [
+            (["--sensor-range", "20"], true),
+            (["--profile", "paper"], true),
+            (["--sensor-range", "80"], false),
+        ] {
+            let told = mufasa(&[&["check", &file][..], format, &more].concat()).out;
+            assert_eq!(told.contains("options of recorded drives"), is_said, "{told}");
+        }
+    }
+    for (more, is_said) in [
+        (&["--parameters", &stages][..], true),
+        (&["--profile", "paper"], true),
+        (&["--parameters", &requester], false),
+        (&[], false),
+    ] {
+        let told = mufasa(&[&["vehicle", &file], more].concat());
+        let words = "each cycle has its own profile, configuration and parameters";
+        assert_eq!(
+            (told.code == Some(2), told.err.contains(words)),
+            (false, is_said),
+            "{}",
+            told.err
+        );
+    }
 }
 
+/// A reader that goes away ends the program quietly, and a full disk with a word; what writes completions would panic.
 #[test]
-fn what_cannot_be_written_or_read_is_refused_before_the_work() {
-    let folder = folder("refused");
-    let [place, gone] = ["", "gone"].map(|name| folder.join(name).display().to_string());
-    for (arguments, said) in [
-        (vec!["vehicle", "--json", &place], "it is a folder; name a file"),
-        (vec!["station", "--broker", "amqp://127.0.0.1:1", "--json", &place], "it is a folder"),
-        (vec!["prove", "--out", &place, "gappa"], "it is a folder"),
-        (vec!["prove", "--cbmc", &gone, "gappa"], "gone: is not there; scripts/prove-wasm writes"),
-        (vec!["evaluate", "replay", "--out", &place], "it is a folder"),
-    ] {
-        let told = refusal(&arguments, Stdio::null());
-        assert!(told.contains(said) && told.lines().count() == 1, "{told}");
+fn outputs_that_nobody_reads_or_that_are_full_end_it() {
+    let file = lines(&folder("pipe"), "a", 300, &[]);
+    for arguments in [&["check", "--json", &file][..], &["completions", "bash"]] {
+        let ended = |output: Stdio| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+            let command = command.args(arguments).stdin(Stdio::null()).stdout(output);
+            let child = command.stderr(Stdio::piped()).spawn().expect("the program starts");
+            Said::of(child.wait_with_output().expect("it ends"))
+        };
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let gone = ended(writer.into());
+        assert_eq!((gone.code, gone.err.as_str()), (Some(141), ""), "{arguments:?}");
+        let full = OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+        ended(full.into()).has(2, "", "mufasa: standard input or output: ");
     }
 }
 
@@ -179,69 +248,22 @@ fn what_cannot_be_written_or_read_is_refused_before_the_work() {
 #[cfg(unix)]
 #[test]
 fn a_limit_of_file_sizes_is_told() {
-    let folder = folder("limit");
     let command =
         format!("ulimit -f 8; exec {} vectors --out vectors", env!("CARGO_BIN_EXE_mufasa"));
-    let ended = Command::new("sh").args(["-c", &command]).current_dir(&folder).output();
-    let ended = ended.expect("a shell is there");
-    assert_eq!(ended.status.code(), Some(2), "{ended:?}");
-    let told = String::from_utf8(ended.stderr).expect("UTF-8");
-    assert!(told.contains("cannot be written") && told.contains("large"), "{told}");
-}
-
-#[test]
-fn hints_are_about_what_was_asked() {
-    let mixed = folder("mixed").join("mixed.jsonl");
-    let vector =
-        include_str!("../../../../vectors/findings/F-30.jsonl").lines().next().expect("one");
-    let vector: Value = serde_json::from_str(vector).expect("JSON");
-    fs::write(&mixed, format!("{}\n{{\"kind\": 3}}\n", vector["input"])).expect("written");
-    let told = refusal(&["vehicle", mixed.to_str().expect("plain")], Stdio::null());
-    assert!(told.contains("mixed.jsonl:2") && told.contains("kind"), "{told}");
-    let told = refusal(&["conform", "merge"], Stdio::null());
-    assert!(told.contains("required") && !told.contains("behind `--`"), "{told}");
-    let told = refusal(&["conform", "./program"], Stdio::null());
-    assert!(told.contains("behind `--`"), "{told}");
-    let two = concat!(env!("CARGO_MANIFEST_DIR"), "/../../vectors/services/composition.jsonl");
-    let told = refusal(&["compose", two], Stdio::null());
-    assert!(
-        told.contains("one record is composed") && told.contains("more; give a file with one"),
-        "{told}"
-    );
+    let mut shell = Command::new("sh");
+    let ended = shell.args(["-c", &command]).current_dir(folder("limit")).output();
+    let told = Said::of(ended.expect("a shell is there"));
+    told.has(2, "", "cannot be written");
+    assert!(told.err.contains("large"), "{}", told.err);
 }
 
 /// A broker that is not there is tried again and again; who never had it did not what was asked.
 #[test]
 fn a_broker_that_is_never_reached_is_told() {
-    let scenario = format!("{DATA}small-2018b.xml");
-    let vehicle = ["vehicle", &scenario, "--broker", "amqp://guest:guest@127.0.0.1:1"];
-    let station =
-        ["station", &scenario, "--broker", "amqp://guest:guest@127.0.0.1:1", "--seconds", "1"];
-    for arguments in [&vehicle[..], &station] {
-        let ended = mufasa(arguments, Stdio::null(), Stdio::null());
-        assert_eq!(ended.status.code(), Some(1));
-        let told = String::from_utf8(ended.stderr).expect("UTF-8");
-        assert!(
-            told.contains("the broker at 127.0.0.1:1 cannot be reached, and is tried again"),
-            "{told}"
-        );
+    let [scenario, _] = small();
+    let broker = ["--broker", "amqp://guest:guest@127.0.0.1:1"];
+    for arguments in [&["vehicle", &scenario][..], &["station", &scenario, "--seconds", "1"]] {
+        let words = "the broker at 127.0.0.1:1 cannot be reached, and is tried again";
+        mufasa(&[arguments, &broker].concat()).has(1, "", words);
     }
-}
-
-/// What was counted until then is written, and says so.
-#[cfg(unix)]
-#[test]
-fn a_vehicle_that_is_interrupted_says_so() {
-    let file = folder("interrupted").join("vehicle.json");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    let command = command.args(["vehicle", "--quiet", "--json"]).arg(&file);
-    let mut vehicle = command.stdout(Stdio::null()).spawn().expect("the program starts");
-    thread::sleep(Duration::from_secs(1));
-    let killed = Command::new("kill").args(["-INT", &vehicle.id().to_string()]).status();
-    assert!(killed.expect("kill is there").success());
-    assert_eq!(vehicle.wait().expect("it ends").code(), Some(130));
-    let summary: Value =
-        serde_json::from_str(&fs::read_to_string(&file).expect("written")).expect("JSON");
-    assert_eq!(summary["interrupted"], true);
-    assert!(summary["cycles"].as_u64().expect("a count") < 188);
 }

@@ -90,7 +90,7 @@ fn the_document_has_a_row_for_every_claim() {
     assert_eq!(
         tables::claims(&table),
         tables::claims(&expected),
-        "the table is old: cargo run -- prove --into docs/proofs.md"
+        "the table is old: cargo run --release -- prove --into docs/proofs.md"
     );
     // The README says the numbers of the table.
     let counts = table.lines().find(|line| line.contains(" proved, ")).expect("the counts");
@@ -123,7 +123,125 @@ fn the_document_is_of_these_sources_or_that_is_said() {
     let number = number.expect("the number of the sources below the table");
     assert!(number.chars().all(|digit| digit.is_ascii_hexdigit()), "{number}");
     if number != sources::hash_of_all(root()).expect("the sources are here") {
-        println!("NOT RUN: docs/proofs.md: of other sources: mufasa prove --into docs/proofs.md");
+        println!(
+            "NOT RUN: docs/proofs.md: of other sources: cargo run --release -- prove --into docs/proofs.md"
+        );
+    }
+}
+
+/// Runs a list of required claims; the exit code, what is printed, and what is said of mistakes.
+fn require(
+    folder: &Path,
+    list: &str,
+    more: &[&str],
+    path: Option<&str>,
+) -> (Option<i32>, String, String) {
+    let file = folder.join("list.txt");
+    std::fs::write(&file, list).expect("the file");
+    let file = file.to_str().expect("a plain path");
+    let output = prove(&[&["--require", file], more].concat(), path, folder);
+    let [out, err] = [output.stdout, output.stderr].map(|it| String::from_utf8(it).expect("text"));
+    (output.status.code(), out, err)
+}
+
+#[test]
+fn a_required_claim_without_its_engine_is_told_first() {
+    let folder = folder("prove-required-missing");
+    let bound = gappa::BOUNDS.first().expect("a bound").id;
+    let list = format!("# of engines that are not here\ns_b_grows_with_v # z3\n\n{bound}\n");
+    let (code, out, _) = require(&folder, &list, &[], Some(""));
+    assert_eq!(code, Some(4), "{out}");
+    assert!(out.starts_with("z3 is missing (claims: 1): Debian's package z3"), "{out}");
+    assert!(out.contains("\ngappa is missing (claims: 1): Debian's package gappa\n"), "{out}");
+    assert!(out.contains("list.txt: 0 of 2 are proved\n"), "{out}");
+    assert!(out.contains("  s_b_grows_with_v: z3 is missing\n"), "{out}");
+    // An engine that is compiled in is never missing.
+    let (code, out, _) =
+        require(&folder, "requester::verify_an_error_is_told_as_unsafe\n", &[], Some(""));
+    assert_eq!(code, Some(0), "{out}");
+    assert!(out.contains("list.txt: 1 of 1 are proved\n"), "{out}");
+}
+
+#[test]
+fn a_required_claim_has_to_be_proved() {
+    let folder = folder("prove-required-cbmc");
+    let cbmc = folder.join("cbmc.json");
+    let here = sources::hash(root()).expect("the sources are here");
+    let id = "quality_of_service::verify_latency_is_exact";
+    let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
+    let more = ["--cbmc", file, "--sources", root];
+    let other = "0123456789abcdef";
+    for (verdict, of, code) in [
+        ("proved", here.as_str(), 0),
+        ("refuted", &here, 1),
+        ("unknown", &here, 1),
+        ("proved", other, 4),
+        ("refuted", other, 4),
+    ] {
+        std::fs::write(&cbmc, compiled(verdict, of)).expect("the file");
+        let (found, out, _) = require(&folder, id, &more, None);
+        assert_eq!(found, Some(code), "{verdict}: {out}");
+        let names_it = out.starts_with("cbmc-wasm is missing (claims: 1): scripts/install-provers");
+        assert_eq!(names_it, code == 4, "{out}");
+    }
+}
+
+#[test]
+fn a_list_of_nothing_or_of_no_claim_is_bad_input() {
+    for (list, said) in [
+        ("# nothing\n", "requires nothing"),
+        ("s_b_grows_with_v\ns_b_growz\n", "s_b_growz: there is no such claim"),
+    ] {
+        let (code, out, told) = require(&folder("prove-required-bad"), list, &[], Some(""));
+        assert_eq!((code, out.len()), (Some(2), 0), "{out}");
+        assert!(told.trim_end().ends_with(said), "{told}");
+    }
+}
+
+/// A release needs all that the table calls proved; CI runs of these what does not need CBMC, and some that do.
+#[test]
+fn the_lists_of_required_claims_are_those_of_the_table() {
+    let table = document::read(&root().join("docs/proofs.md"), TABLE_NAME).expect("the table");
+    let ci = std::fs::read_to_string(root().join(".ci/run")).expect("what CI runs");
+    let compiled = ci.lines().find_map(|line| line.strip_prefix("compiled=(")?.strip_suffix(')'));
+    let compiled: Vec<&str> = compiled.expect("harnesses of CI").split(' ').collect();
+    let rows = table.lines().filter_map(|row| row.strip_prefix("| `"));
+    let proved = rows.filter_map(|row| {
+        let (id, rest) = row.split_once('`')?;
+        let by_cbmc_alone = rest.contains(" | proved; sampling tested");
+        rest.contains(" | proved").then_some((id, by_cbmc_alone))
+    });
+    let proved: Vec<_> = proved.collect();
+    let in_ci =
+        |&(id, by_cbmc): &(&str, bool)| !by_cbmc || compiled.iter().any(|name| id.contains(name));
+    let text = |head: &str, ids: &mut dyn Iterator<Item = &str>| {
+        ids.fold(format!("# {head}\n"), |text, id| text + id + "\n")
+    };
+    for (name, expected) in [
+        (
+            "required.txt",
+            text(
+                "What a release needs proved: mufasa prove --require",
+                &mut proved.iter().map(|&(id, _)| id),
+            ),
+        ),
+        (
+            "required-ci.txt",
+            text(
+                "What .ci/run needs proved, of required.txt",
+                &mut proved.iter().filter(|it| in_ci(it)).map(|&(id, _)| id),
+            ),
+        ),
+    ] {
+        let path = root().join("proofs").join(name);
+        if std::env::var_os("UPDATE_REQUIRED").is_some() {
+            std::fs::write(&path, &expected).expect("the list is written");
+        }
+        assert_eq!(
+            std::fs::read_to_string(&path).unwrap_or_default(),
+            expected,
+            "{name} is old: UPDATE_REQUIRED=1 cargo test -p mufasa-oracle --test it prove"
+        );
     }
 }
 
@@ -153,7 +271,8 @@ fn names_are_taken_as_the_table_prints_them() {
         let output = prove(&[name], Some(""), &folder);
         let text = String::from_utf8(output.stdout).expect("text");
         assert_eq!(output.status.code(), Some(0), "{name}");
-        assert!(text.lines().nth(1).is_some_and(|row| row.contains("s b grows with v")), "{text}");
+        let row = text.lines().skip_while(|line| !line.trim_start().starts_with("id ")).nth(1);
+        assert!(row.is_some_and(|row| row.contains("s b grows with v")), "{text}");
         assert!(text.contains(" 2 not run"), "{text}");
     }
 }

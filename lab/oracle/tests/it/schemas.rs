@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
-use crate::kit::folder;
+use crate::kit::{folder, said};
 use jsonschema::Validator;
 use mufasa_oracle::schemas;
 use serde_json::Value;
@@ -18,9 +17,7 @@ fn validators() -> BTreeMap<&'static str, Validator> {
 
 /// What the program wrote, whatever its exit code.
 fn run(folder: &Path, arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    let output = command.args(arguments).current_dir(folder).stdin(Stdio::null()).output();
-    String::from_utf8(output.expect("the program starts").stdout).expect("it writes UTF-8")
+    said(folder, arguments).out
 }
 
 fn assert_valid(validator: &Validator, value: &Value) {

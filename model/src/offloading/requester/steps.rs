@@ -196,8 +196,7 @@ impl Requester {
 
     /// `hold_until` becomes the later of its old value and now + `t_wait`.
     fn hold(&mut self, now_ns: i64) {
-        let until_ns = now_ns.saturating_add(self.parameters.t_wait_ns);
-        self.hold_until_ns = Some(self.hold_until_ns.map_or(until_ns, |old| old.max(until_ns)));
+        self.hold_at_least(now_ns.saturating_add(self.parameters.t_wait_ns));
     }
 
     fn is_overdue(&self, group: Group, now_ns: i64) -> bool {
@@ -223,8 +222,8 @@ impl Requester {
             return None;
         }
         let station = self.next_station(group)?;
-        self.last_session += 1;
-        let session = self.last_session;
+        let session = self.last_session.checked_add(1)?;
+        self.last_session = session;
         let deadline_ns = now_ns.saturating_add(self.parameters.request_timeout_ns);
         *self.group_mut(group) = Use::Requested { station, session, deadline_ns };
         self.last_asked.insert((group, station), session);

@@ -7,7 +7,7 @@ use mufasa_model::input::cycle::{CrossSection, Profile};
 use mufasa_model::report::FailedStage;
 use mufasa_model::report::Stage;
 
-use super::files::{Scratch, judged, one, shared};
+use super::files::{Scratch, judged, lanelet, one, scenario, shared, vehicle};
 
 type Point = [f64; 2];
 
@@ -23,40 +23,18 @@ fn left_lane(slope: f64) -> [[Point; 3]; 2] {
 
 /// The drive of a car along x at 10 m/s, in these places across the road every metre from x = 31.
 fn drive(slope: f64, across: &[f64]) -> Drive {
-    let points = |bound: &[Point; 3]| {
-        bound.iter().fold(String::new(), |mut text, [x, y]| {
-            let _ = write!(text, "<point><x>{x}</x><y>{y}</y></point>");
-            text
-        })
+    let lane = |id, [left, right]: [[Point; 3]; 2], side: &str, other: u32| {
+        let links = format!("<adjacent{side} ref=\"{other}\" drivingDir=\"same\"/>");
+        lanelet(id, [&left, &right], &links)
     };
-    let lanelet = |id: i32, [left, right]: [[Point; 3]; 2], beside: &str| {
-        format!(
-            "<lanelet id=\"{id}\"><leftBound>{}</leftBound><rightBound>{}</rightBound>{beside}</lanelet>",
-            points(&left),
-            points(&right)
-        )
-    };
-    let mut states = String::new();
-    for (i, y) in across.iter().enumerate() {
-        let name = if i == 0 { "initialState" } else { "state" };
-        let _ = write!(
-            states,
-            "<{name}><position><point><x>{}</x><y>{y}</y></point></position><orientation><exact>0</exact>\
-             </orientation><time><exact>{i}</exact></time><velocity><exact>10</exact></velocity></{name}>{}",
-            31 + i,
-            if i == 0 { "<trajectory>" } else { "" }
-        );
-    }
-    let text = format!(
-        "<commonRoad benchmarkID=\"ZAM_Lanes-1_1_T-1\" commonRoadVersion=\"2020a\" timeStepSize=\"0.1\">\
-         {}{}<dynamicObstacle id=\"7\"><type>car</type><shape><rectangle><length>4</length><width>2</width>\
-         </rectangle></shape>{states}</trajectory></dynamicObstacle></commonRoad>",
-        lanelet(1, RIGHT_LANE, "<adjacentLeft ref=\"2\" drivingDir=\"same\"/>"),
-        lanelet(2, left_lane(slope), "<adjacentRight ref=\"1\" drivingDir=\"same\"/>"),
-    );
-    let folder = Scratch::new();
+    let places = (31_u32..).zip(across).map(|(x, y)| [f64::from(x), *y, 0.0]);
+    let text = scenario(&[
+        lane(1, RIGHT_LANE, "Left", 2),
+        lane(2, left_lane(slope), "Right", 1),
+        vehicle(7, "car", 10.0, places),
+    ]);
     let options = Options { ego: Some(7), tail: Tail::Keep, ..Options::default() };
-    one(&[folder.write("lanes.xml", text)], &options).unwrap()
+    one(&[Scratch::new().write("lanes.xml", text)], &options).unwrap()
 }
 
 fn sections(drive: &Drive) -> &[CrossSection] {

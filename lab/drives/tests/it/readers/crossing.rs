@@ -1,37 +1,21 @@
 //! F-30 and F-31 on a drive: a car crosses in front of the CAV, and the remote says that it stands,
 //! leaves it out, or tells of it as it is.
 
-use std::fmt::Write as _;
+use std::f64::consts::FRAC_PI_2;
 
 use mufasa_drives::{Attack, Drive, Injection, Options, Tail};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::report::{Outcome, Rule};
 
-use super::files::{Scratch, inject, judged, one, own};
+use super::files::{Scratch, inject, judged, one, own, vehicle};
 
 /// The small scenario with car 50, which comes from the left at 10 m/s and is in the CAV's lane,
 /// 30 m ahead of its first place, after 2 s.
 fn drive(profile: Profile) -> Drive {
     let scenario = std::fs::read_to_string(own("readers/small-2020a.xml")).unwrap();
     let (front, _) = scenario.split_once("</commonRoad>").unwrap();
-    let state = |name: &str, step: i32| {
-        let y = 18.25 - f64::from(step);
-        format!(
-            "<{name}><position><point><x>30</x><y>{y}</y></point></position><orientation>\
-             <exact>-1.5707963267948966</exact></orientation><time><exact>{step}</exact></time>\
-             <velocity><exact>10</exact></velocity></{name}>"
-        )
-    };
-    let states: String = (1..=20).fold(String::new(), |mut text, step| {
-        let _ = write!(text, "{}", state("state", step));
-        text
-    });
-    let car = format!(
-        "<dynamicObstacle id=\"50\"><type>car</type><shape><rectangle><length>4.5</length>\
-         <width>1.8</width></rectangle></shape>{}<trajectory>{states}</trajectory>\
-         </dynamicObstacle>",
-        state("initialState", 0)
-    );
+    let places = (0..=20).map(|step| [30.0, 18.25 - f64::from(step), -FRAC_PI_2]);
+    let car = vehicle(50, "car", 10.0, places);
     let folder = Scratch::new();
     let scenario = folder.write("crossing.xml", format!("{front}{car}</commonRoad>"));
     let solution = own("readers/small.KS2.solution.xml");

@@ -60,6 +60,45 @@ impl Drop for Scratch {
     }
 }
 
+/// A scenario of these elements.
+pub fn scenario(elements: &[String]) -> String {
+    let head = "<commonRoad benchmarkID=\"ZAM_Small-1_1_T-1\" commonRoadVersion=\"2020a\" timeStepSize=\"0.1\">";
+    format!("{head}{}</commonRoad>", elements.concat())
+}
+
+/// A lanelet between two bounds, with what else is in it.
+pub fn lanelet(id: u32, [left, right]: [&[[f64; 2]]; 2], links: &str) -> String {
+    let bound = |name: &str, points: &[[f64; 2]]| {
+        let point = |[x, y]: &[f64; 2]| format!("<point><x>{x}</x><y>{y}</y></point>");
+        format!("<{name}>{}</{name}>", points.iter().map(point).collect::<Vec<_>>().concat())
+    };
+    let bounds = bound("leftBound", left) + &bound("rightBound", right);
+    format!("<lanelet id=\"{id}\">{bounds}{links}</lanelet>")
+}
+
+/// A recorded vehicle at this speed: x, y and heading at each step, from 0 on.
+pub fn vehicle(
+    id: u32,
+    kind: &str,
+    speed: f64,
+    states: impl IntoIterator<Item = [f64; 3]>,
+) -> String {
+    let state = |(step, [x, y, heading]): (usize, [f64; 3])| {
+        let name = if step == 0 { "initialState" } else { "state" };
+        format!(
+            "<{name}><position><point><x>{x}</x><y>{y}</y></point></position><orientation><exact>{heading}</exact>\
+             </orientation><time><exact>{step}</exact></time><velocity><exact>{speed}</exact></velocity></{name}>"
+        )
+    };
+    let states: Vec<_> = states.into_iter().enumerate().map(state).collect();
+    let (first, rest) = states.split_first().expect("a first state");
+    format!(
+        "<dynamicObstacle id=\"{id}\"><type>{kind}</type><shape><rectangle><length>4.5</length><width>1.8</width>\
+         </rectangle></shape>{first}<trajectory>{}</trajectory></dynamicObstacle>",
+        rest.concat()
+    )
+}
+
 /// The one drive of some files.
 pub fn one(paths: &[PathBuf], options: &Options) -> Result<Drive, ReadError> {
     let mut drives = read(paths, options);

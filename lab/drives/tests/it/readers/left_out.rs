@@ -2,24 +2,18 @@
 
 use mufasa_drives::{Drive, Options, ReadError};
 
-use super::files::{Scratch, one, own, shared};
+use super::files::{self, Scratch, one, own, scenario, shared};
 
 /// A lanelet between two values of x and of y, with what else is in it.
-fn lanelet(id: u32, x: [f64; 2], [left, right]: [f64; 2], links: &str) -> String {
-    let bound = |name: &str, y: f64| {
-        let point = |x: f64| format!("<point><x>{x}</x><y>{y}</y></point>");
-        format!("<{name}>{}{}</{name}>", point(x[0]), point(x[1]))
-    };
-    let bounds = bound("leftBound", left) + &bound("rightBound", right);
-    format!("<lanelet id=\"{id}\">{bounds}{links}</lanelet>")
+fn lanelet(id: u32, x: [f64; 2], y: [f64; 2], links: &str) -> String {
+    let [left, right] = y.map(|y| x.map(|x| [x, y]));
+    files::lanelet(id, [&left, &right], links)
 }
 
 /// The drive of the small solution, along y = -1.75 from x = 10 to 30, on these lanelets.
 fn solved(lanelets: &[String]) -> Result<Drive, ReadError> {
-    let head = "<commonRoad benchmarkID=\"ZAM_Small-1_1_T-1\" commonRoadVersion=\"2020a\" \
-                timeStepSize=\"0.1\">";
     let folder = Scratch::new();
-    let scenario = folder.write("s.xml", format!("{head}{}</commonRoad>", lanelets.concat()));
+    let scenario = folder.write("s.xml", scenario(lanelets));
     one(&[scenario, own("readers/small.KS2.solution.xml")], &Options::default())
 }
 
@@ -38,16 +32,11 @@ fn a_lanelet_on_the_wrong_sides_or_without_area_is_left_out_with_a_note() {
 
 /// A lane left of that of the drive, whose bounds are at these y every 20 m.
 fn beside(left: &[f64], right: &[f64]) -> String {
-    let bound = |name: &str, line: &[f64]| {
-        let point = |(i, y)| format!("<point><x>{}</x><y>{y}</y></point>", 20 * i);
-        let points: String = line.iter().enumerate().map(point).collect();
-        format!("<{name}>{points}</{name}>")
-    };
-    format!(
-        "<lanelet id=\"2\">{}{}</lanelet>",
-        bound("leftBound", left),
-        bound("rightBound", right)
-    )
+    let [left, right] = [left, right].map(|line| {
+        let point = |(i, y): (u32, &f64)| [20.0 * f64::from(i), *y];
+        (0..).zip(line).map(point).collect::<Vec<_>>()
+    });
+    files::lanelet(2, [&left, &right], "")
 }
 
 /// Bounds that cross and cross back were once taken for those of a road.

@@ -1,31 +1,14 @@
 //! Which recorded vehicle is the CAV, and of which edition of a scenario a solution is.
 
-use std::fmt::Write;
-
 use mufasa_drives::{Drive, Options, ReadError, Tail};
 
-use super::files::{Scratch, one, shared, small};
+use super::files::{self, Scratch, lanelet, one, scenario, shared, small};
 
 /// A vehicle with 31 states a tenth of a second apart, from x = 10 on along y = -1.75, at this
 /// speed; `change` gives the x of a step.
 fn vehicle(id: u32, kind: &str, speed: f64, change: impl Fn(u32, f64) -> f64) -> String {
-    let mut states = (0..31).map(|step| {
-        let x = change(step, 10.0 + speed * f64::from(step) / 10.0);
-        format!(
-            "<position><point><x>{x}</x><y>-1.75</y></point></position><orientation><exact>0\
-             </exact></orientation><time><exact>{step}</exact></time><velocity><exact>{speed}\
-             </exact></velocity>"
-        )
-    });
-    let first = states.next().expect("a first state");
-    let mut text = format!(
-        "<dynamicObstacle id=\"{id}\"><type>{kind}</type><shape><rectangle><length>4</length>\
-         <width>2</width></rectangle></shape><initialState>{first}</initialState><trajectory>"
-    );
-    for state in states {
-        write!(text, "<state>{state}</state>").expect("memory can be written");
-    }
-    text + "</trajectory></dynamicObstacle>"
+    let x = |step| change(step, 10.0 + speed * f64::from(step) / 10.0);
+    files::vehicle(id, kind, speed, (0..31).map(|step| [x(step), -1.75, 0.0]))
 }
 
 fn as_driven(_: u32, x: f64) -> f64 {
@@ -34,16 +17,8 @@ fn as_driven(_: u32, x: f64) -> f64 {
 
 /// The drive of a recorded one of these vehicles on a straight lane.
 fn drive(vehicles: &[String], options: &Options) -> Result<Drive, ReadError> {
-    let bound = |name: &str, y: &str| {
-        let point = |x: &str| format!("<point><x>{x}</x><y>{y}</y></point>");
-        format!("<{name}>{}{}</{name}>", point("0"), point("200"))
-    };
-    let lane = bound("leftBound", "0") + &bound("rightBound", "-3.5");
-    let text = format!(
-        "<commonRoad benchmarkID=\"A\" commonRoadVersion=\"2020a\" timeStepSize=\"0.1\">\
-         <lanelet id=\"1\">{lane}</lanelet>{}</commonRoad>",
-        vehicles.concat()
-    );
+    let lane = lanelet(1, [&[[0.0, 0.0], [200.0, 0.0]], &[[0.0, -3.5], [200.0, -3.5]]], "");
+    let text = scenario(&[&[lane], vehicles].concat());
     one(&[Scratch::new().write("s.xml", text)], options)
 }
 

@@ -10,6 +10,7 @@ use mufasa_theorems::gappa::{self, Bound};
 use mufasa_theorems::{prove as solve, solver, theorem};
 use rayon::prelude::*;
 
+use super::ClaimSource;
 use crate::prove::claim::{Claim, EngineAnswer, Status};
 
 const Z3: &str = "z3";
@@ -46,15 +47,31 @@ fn not_run(parts: [&str; 3], wrong: Option<&str>, answer: EngineAnswer) -> Claim
     Claim { refuted_variant: wrong.map(str::to_owned), ..Claim::new(parts, answer) }
 }
 
-/// Judges each claim of these, if its solver is here. Errors are those of talking to a solver.
-pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
-    let engine = claims.first().map(|line| line.answer.engine);
-    let is_here = match engine {
-        Some(Z3) => solver::is_new_enough(),
-        Some(GAPPA) => gappa::version().is_some(),
+/// Whether the solver of these claims is here.
+pub(super) fn is_here(source: ClaimSource) -> bool {
+    match source {
+        ClaimSource::Theorems => solver::is_new_enough(),
+        ClaimSource::Gappa => gappa::version().is_some(),
         _ => doubles::version().is_some(),
-    };
-    if !is_here {
+    }
+}
+
+/// Where it comes from.
+pub(super) const fn package(source: ClaimSource) -> &'static str {
+    match source {
+        ClaimSource::Theorems => "Debian's package z3, 4.8 or newer",
+        ClaimSource::Gappa => "Debian's package gappa",
+        _ => "python3 -m pip install bitwuzla==0.9.1",
+    }
+}
+
+/// Judges each claim of these, if their solver is here. Errors are those of talking to it.
+pub(super) fn judge(
+    source: ClaimSource,
+    claims: Vec<Claim>,
+    bar: &ProgressBar,
+) -> io::Result<Vec<Claim>> {
+    if !is_here(source) {
         return Ok(claims);
     }
     let judged = |line: Claim| {

@@ -1,0 +1,35 @@
+//! The CAV's own trajectory, where everything is local (`spec/monitor.md`, local services).
+
+use super::elements::is_current;
+use super::messages::Brake;
+use crate::cycle::check;
+use crate::input::cycle::Cycle;
+use crate::report::{InvalidInput, Reading, Report};
+use crate::services::configuration::Configuration;
+
+/// Examines the CAV's own trajectory as in `PlanRemote`: the cycle with its own tracks and trajectory, and
+/// the history as the cycle leaves it. [MON-47] [MON-48] [MON-50] [MON-51]
+///
+/// `misfit` is what of the input is refused beside the stages.
+pub fn examine(own: &Cycle, misfit: Option<&InvalidInput>, reading: Reading) -> Option<Brake> {
+    let as_remote = Cycle { configuration: Configuration::PlanRemote, ..own.clone() };
+    match (check(&as_remote, reading), misfit) {
+        (Err(problem), _) => Some(Brake::Invalid(problem)),
+        (Ok(_), Some(problem)) => Some(Brake::Invalid(problem.clone())),
+        (Ok(report), None) => failed(&report)
+            .or_else(|| (!has_current_trajectory(own)).then_some(Brake::NoTrajectory)),
+    }
+}
+
+fn failed(report: &Report) -> Option<Brake> {
+    let stage = report.failed_stage?;
+    if let Some(problem) = &report.input {
+        return Some(Brake::Invalid(problem.clone()));
+    }
+    Some(Brake::Failed(stage, report.witness().cloned()))
+}
+
+fn has_current_trajectory(own: &Cycle) -> bool {
+    let max_age_ns = own.parameters.max_age_ns;
+    own.trajectory.as_ref().is_some_and(|it| is_current(own.now_ns, it.stamp_ns, max_age_ns))
+}
