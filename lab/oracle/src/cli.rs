@@ -242,22 +242,16 @@ fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> io::Result<u8>
 }
 
 fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> {
-    let all = std::thread::available_parallelism().map_or(1, usize::from);
     let settings = explore::Settings {
         profiles: arguments
             .profile
             .map_or(vec![Profile::PAPER, Profile::HARDENED], |profile| vec![profile]),
         bounds: arguments.bounds,
         world: arguments.world,
-        threads: arguments.threads.unwrap_or(all),
         into: arguments.into,
         folder: folder_or(arguments.out, "exploration"),
     };
-    let end = match &arguments.serve {
-        Some(address) => explore::serve(&settings, address, out, &mut io::stderr())?,
-        None => explore::run(&settings, out, &mut io::stderr())?,
-    };
-    Ok(end.code())
+    Ok(explore::run(&settings, out, &mut io::stderr())?.code())
 }
 
 fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {

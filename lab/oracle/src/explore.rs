@@ -9,15 +9,12 @@ pub mod vector;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
 
 use mufasa_exploration::bounds::{Bounds, World};
 use mufasa_exploration::properties::Property;
-use mufasa_exploration::run::{self, PropertyOutcome, WorldOutcome};
+use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_exploration::search::Progress;
-use mufasa_exploration::second;
-use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 
 use self::report::ExplorationReport;
@@ -43,8 +40,6 @@ pub struct Settings {
     pub bounds: Bounds,
     /// Only the world of this name.
     pub world: Option<String>,
-    /// Threads of the second engine; 0: it is not asked.
-    pub threads: usize,
     /// A document whose tables of these bounds are replaced.
     pub into: Option<PathBuf>,
     /// Folder for vectors and charts of what was found.
@@ -61,7 +56,7 @@ pub enum End {
     Fails,
     /// No such world, or a file could not be written.
     BadInput,
-    /// Model and implementation differ, or the two engines do.
+    /// Model and implementation differ.
     Disagree,
 }
 
@@ -92,7 +87,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     for profile in &settings.profiles {
         let mut outcomes = Vec::new();
         for world in &worlds {
-            match explore(world, *profile, settings.threads) {
+            match explore(world, *profile) {
                 Ok(outcome) => outcomes.push(outcome),
                 Err(difference) => {
                     complain(err, &format!("{}: {difference}", title(world, *profile)));
@@ -104,7 +99,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         let report = ExplorationReport::new(*profile, settings.bounds, &outcomes);
         writeln!(out, "{}", report.worlds().text(None))?;
         writeln!(out, "{}", report.properties().text(Some(WIDTH)))?;
-        end = end.max(judge(*profile, &outcomes, err));
+        end = end.max(judge(*profile, &outcomes));
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
         }
@@ -161,37 +156,6 @@ fn write(folder: &Path, reports: &[ExplorationReport]) -> Written {
     Ok(written)
 }
 
-/// Serves the explorer page of stateright for one world, until the program is ended.
-pub fn serve(
-    settings: &Settings,
-    address: &str,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<End> {
-    let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
-        return Ok(End::BadInput);
-    };
-    let (Some(world), Some(profile)) = (worlds.last(), settings.profiles.last()) else {
-        return Ok(End::BadInput);
-    };
-    let system = match System::new(world, *profile) {
-        Ok(system) => Arc::new(system),
-        Err(difference) => {
-            complain(err, &format!("{}: {difference}", title(world, *profile)));
-            return Ok(End::Disagree);
-        }
-    };
-    // The address is tried first: the explorer itself panics when it cannot have it.
-    if let Err(error) = std::net::TcpListener::bind(address) {
-        complain(err, &format!("{address}: cannot be listened on: {error}"));
-        return Ok(End::BadInput);
-    }
-    writeln!(out, "{}: http://{address} until ended", title(world, *profile))?;
-    out.flush()?;
-    second::serve(&system, address);
-    Ok(End::Holds)
-}
-
 /// The worlds asked for; says so when there is none of that name.
 fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Vec<&'static World>> {
     let all = bounds.worlds();
@@ -211,14 +175,13 @@ fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Ve
 fn explore(
     world: &'static World,
     profile: Profile,
-    threads: usize,
 ) -> Result<WorldOutcome, Box<mufasa_props::refine::Difference>> {
     let bar = mufasa_drives::progress::bar(0, "{spinner} {prefix}: {msg}");
     bar.set_prefix(title(world, profile));
     bar.set_message("the parts");
     bar.tick();
     let start = Instant::now();
-    let outcome = run::explore(world, profile, threads, |progress| {
+    let outcome = run::explore(world, profile, |progress| {
         bar.set_message(words(progress, start));
         bar.tick();
     });
@@ -240,41 +203,10 @@ fn words(progress: Progress, start: Instant) -> String {
     )
 }
 
-fn judge(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl Write) -> End {
-    let mut end = End::default();
-    for outcome in outcomes {
-        let name = title(outcome.system.world(), profile);
-        if let Some(difference) = engines_differ(profile, outcome) {
-            complain(err, &format!("{name}: {difference}"));
-            end = end.max(End::Disagree);
-        }
-        let fails = outcome.results.iter().any(|finding| {
-            finding.counterexample.is_some() && finding.property.is_claimed(profile)
-        });
-        if fails {
-            end = end.max(End::Fails);
-        }
-    }
-    end
-}
-
-/// In what the second engine differs, if it was asked: where no safety property fails, in the
-/// number of states. It does not go on behind a state that breaks one, so where some fail it has
-/// to find at least one of them, and none else.
-fn engines_differ(profile: Profile, outcome: &WorldOutcome) -> Option<String> {
-    let (second, _) = outcome.second.as_ref()?;
-    let fails = |finding: &&PropertyOutcome| {
-        let property = finding.property;
-        finding.counterexample.is_some() && property.is_safety() && property.is_claimed(profile)
-    };
-    let first: Vec<_> = outcome.results.iter().filter(fails).map(|it| it.property.name()).collect();
-    let none_else = second.broken.iter().all(|property| first.contains(property));
-    if !none_else || first.is_empty() != second.broken.is_empty() {
-        return Some(format!("{first:?} fail, stateright says {:?}", second.broken));
-    }
-    let (states, again) = (outcome.states, second.states);
-    let differ = first.is_empty() && states != again;
-    differ.then(|| format!("{states} states, stateright says {again}"))
+fn judge(profile: Profile, outcomes: &[WorldOutcome]) -> End {
+    let mut findings = outcomes.iter().flat_map(|outcome| &outcome.results);
+    let fails = findings.any(|it| it.counterexample.is_some() && it.property.is_claimed(profile));
+    if fails { End::Fails } else { End::Holds }
 }
 
 /// All worlds together have to show what the properties speak of: a property of nothing holds.

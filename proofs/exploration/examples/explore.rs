@@ -1,5 +1,5 @@
-//! Explores the small worlds named on the command line, or all, without the second engine, and
-//! says which properties fail: `profile world property moves`. `scripts/mutants` reads it.
+//! Explores the small worlds named on the command line, or all, and says
+//! which properties fail: `profile world property moves`. `scripts/mutants` reads it.
 
 use std::process::ExitCode;
 
@@ -15,7 +15,7 @@ fn main() -> ExitCode {
             if !names.is_empty() && !names.iter().any(|name| name == world.name) {
                 continue;
             }
-            let outcome = match run::explore(world, profile, 0, |_| {}) {
+            let outcome = match run::explore(world, profile, |_| {}) {
                 Ok(outcome) => outcome,
                 Err(difference) => {
                     println!("{profile:?} {} refinement: {difference}", world.name);

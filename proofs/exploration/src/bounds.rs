@@ -272,15 +272,6 @@ const LARGE: &[World] = &[
         ..BASE
     },
     World {
-        name: "fleet-2",
-        why: "two CAVs and two stations, so that a CAV can lose the place on one to the other and \
-              find the second",
-        requesters: 2,
-        stations: &[ONE_GROUP; 2],
-        attacker: false,
-        ..BASE
-    },
-    World {
         name: "shared-3",
         why: "the small world `shared` with three messages in flight",
         requesters: 2,

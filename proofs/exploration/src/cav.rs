@@ -7,7 +7,7 @@
 //!   is over stays over, whatever its distance; a last arrival longer ago than `dt_max` is a
 //!   violation, whatever comes; an element older than `l_max` is a violation, so a last used one
 //!   older than that rejects nothing that would be used. So distances are kept up to one tick
-//!   beyond the limit. Time runs forwards here (random walks let it run backwards).
+//!   beyond the limit. Time runs forwards here (random traces let it run backwards).
 //! * Sessions are compared for equality with the running or requested one of the same group, and
 //!   the last requests for a group with each other. A new number is above all old ones. So of a
 //!   number only matters whether it is the current one of its group, and of the last requests

@@ -7,7 +7,6 @@
 //! * `state`, `flight`, `moves`, `possible`, `system`: the whole system.
 //! * `properties`, `observer`: what has to hold, judged from outside.
 //! * `search`, `lasso`, `runs`: the exact search, and the search for endless runs.
-//! * `second`: stateright on the same system.
 //! * `replay`: traces walked with real numbers and times; `words`: states and moves in words.
 //! * `run`: a world explored, with the verdict of every property.
 
@@ -25,7 +24,6 @@ pub mod replay;
 pub mod run;
 pub mod runs;
 pub mod search;
-pub mod second;
 pub mod state;
 pub mod station;
 pub mod stimulus;

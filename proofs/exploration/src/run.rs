@@ -12,7 +12,6 @@ use super::moves::Move;
 use super::properties::{Property, Sight};
 use super::runs::{self, Manner};
 use super::search::{self, Explored, Progress};
-use super::second::{self, Confirmation};
 use super::system::System;
 use mufasa_props::refine::Difference;
 
@@ -35,8 +34,6 @@ pub struct WorldOutcome {
     pub results: Vec<PropertyOutcome>,
     /// The sights seen, each with a shortest trace to it.
     pub seen: Vec<(Sight, Vec<Move>)>,
-    /// What the second engine says, and its time, if it was asked.
-    pub second: Option<(Confirmation, Duration)>,
 }
 
 impl WorldOutcome {
@@ -69,12 +66,10 @@ pub struct Counterexample {
     pub circle: Vec<Move>,
 }
 
-/// Explores a world. `threads`: of the second engine, which is not asked with 0. Errors: model
-/// and implementation of the requester differ.
+/// Explores a world. Errors: model and implementation of the requester differ.
 pub fn explore(
     world: &'static World,
     profile: Profile,
-    threads: usize,
     report: impl FnMut(Progress),
 ) -> Result<WorldOutcome, Box<Difference>> {
     let start = Instant::now();
@@ -91,10 +86,6 @@ pub fn explore(
         .map(|(sight, step)| (*sight, explored.trace_of(&system, *step)))
         .collect();
     let time = start.elapsed();
-    let second = (threads > 0).then(|| {
-        let start = Instant::now();
-        (second::explore(&system, threads), start.elapsed())
-    });
     Ok(WorldOutcome {
         states: explored.len(),
         transitions: explored.transitions,
@@ -103,7 +94,6 @@ pub fn explore(
         time,
         results,
         seen,
-        second,
         system,
     })
 }

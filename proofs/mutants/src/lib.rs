@@ -14,14 +14,8 @@ use serde::Deserialize;
 pub enum Engine {
     /// Theorems over the reals.
     Z3,
-    /// Rounding errors.
-    Gappa,
-    /// Ranges of doubles.
-    Bitwuzla,
     /// Every reachable state of the offloading protocol.
     Exploration,
-    /// Laws over complete finite domains.
-    Laws,
     /// Harnesses run natively.
     Harnesses,
     /// Harnesses compiled, judged by CBMC.

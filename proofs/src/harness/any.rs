@@ -4,7 +4,7 @@
 #[cfg(not(kani))]
 use crate::kani;
 use mufasa::input::profile::Profile;
-use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa::services::configuration::Groups;
 
 #[cfg(not(kani))]
 pub use crate::kani::{below, near, near_integer};
@@ -43,11 +43,6 @@ pub fn integer_within(least: i64, most: i64) -> i64 {
     value
 }
 
-/// An index below `limit`, which is at most 255.
-pub fn index(limit: usize) -> usize {
-    usize::from(below(u8::try_from(limit).unwrap_or(u8::MAX)))
-}
-
 /// A time, with the limits of 64 bits as likely as a value near 0.
 pub fn time_ns() -> i64 {
     near_integer(-20, 20)
@@ -70,16 +65,6 @@ pub fn option<T>(value: impl FnOnce() -> T) -> Option<T> {
 /// One of the two profiles.
 pub fn profile() -> Profile {
     if kani::any() { Profile::PAPER } else { Profile::HARDENED }
-}
-
-/// One of the four configurations.
-pub fn configuration() -> Configuration {
-    Configuration::of(groups())
-}
-
-/// One of the two groups.
-pub fn group() -> Group {
-    if kani::any() { Group::Mot } else { Group::Plan }
 }
 
 /// Any set of groups.

@@ -12,11 +12,8 @@ pub mod any;
 pub mod bitmap;
 pub mod bounds;
 pub mod configuration;
-pub mod distances;
 pub mod exact;
 pub mod group;
-pub mod i_track_validation;
-pub mod input;
 mod items;
 pub mod lists;
 pub mod order;
@@ -25,15 +22,11 @@ pub mod plain_distances;
 pub mod quality_of_service;
 pub mod requester;
 pub mod scene;
-pub mod schedule;
 mod seen;
 pub mod session;
-pub mod stages;
 mod states;
 pub mod table;
 pub mod ticks;
-pub mod v_grid_map;
-pub mod world;
 
 /// Name and body of a harness.
 pub type Harness = (&'static str, fn());
@@ -56,11 +49,6 @@ harnesses! {
         verify_the_first_near_cell_is_found;
     configuration:
         verify_configurations_are_the_sets_of_groups;
-    distances:
-        verify_s_follow_is_never_below_s_cav
-        verify_s_follow_falls_with_v_lead
-        verify_gap_keeps_its_laws
-        verify_s_valid_is_s_follow_or_s_b;
     exact:
         verify_limbs_add_like_integers
         verify_four_limbs_add_like_integers
@@ -84,12 +72,6 @@ harnesses! {
         verify_a_group_depends_on_itself_alone_at_areas
         verify_a_group_depends_on_itself_alone_at_verdicts
         verify_a_session_left_is_released_at_withdrawals;
-    i_track_validation:
-        verify_mean_cost_is_minimal
-        verify_matched_cost_is_minimal;
-    input:
-        verify_bad_number_is_never_safe
-        verify_bad_structure_is_never_safe;
     lists:
         verify_a_route_is_checked
         verify_tracks_are_checked
@@ -127,18 +109,8 @@ harnesses! {
         verify_an_error_is_told_as_unsafe
         verify_an_offer_is_taken_or_leaves_no_trace
         verify_the_station_asked_last_waits;
-    schedule:
-        verify_schedule_is_the_table;
     session:
         verify_data_of_the_running_session_are_judged;
-    stages:
-        verify_stage_i_never_panics
-        verify_stage_ii_never_panics
-        verify_stage_iii_never_panics
-        verify_stage_iv_never_panics
-        verify_stage_v_never_panics
-        verify_index_changes_nothing
-        verify_stage_alone_says_the_same;
     table:
         verify_a_withdrawal_forgets_the_offer_alone
         verify_a_request_is_remembered
@@ -149,7 +121,4 @@ harnesses! {
         verify_t_wait_bars_requests
         verify_a_request_goes_to_who_offers
         verify_what_is_not_due_stays_at_ticks;
-    v_grid_map:
-        verify_paper_cells_include_their_borders
-        verify_hardened_cells_are_closed_squares;
 }

@@ -107,15 +107,15 @@ const STAGES: [Stage; 5] = [Stage::I, Stage::Ii, Stage::Iii, Stage::Iv, Stage::V
 
 /// What the table is asked of.
 #[derive(Clone, Copy)]
-pub(super) struct Asked {
-    pub(super) profile: Profile,
-    pub(super) configuration: Configuration,
-    pub(super) given: Given,
+struct Asked {
+    profile: Profile,
+    configuration: Configuration,
+    given: Given,
 }
 
 impl Asked {
     /// Why the stage at this place does not run, given which of those before ran and whether one failed.
-    pub(super) fn idle(self, at: usize, ran: [bool; 5], failed: bool) -> Option<Idle> {
+    fn idle(self, at: usize, ran: [bool; 5], failed: bool) -> Option<Idle> {
         let column = match self.configuration {
             Configuration::MotRemote => 0,
             Configuration::AllRemote => 1,
@@ -143,7 +143,7 @@ impl Asked {
 
     /// Hardened, nothing compared a current trajectory with obstacles. H-02: in `AllRemote` tracks that stage i
     /// could not check are no obstacle check.
-    pub(super) fn is_unexamined(self, ran: [bool; 5]) -> bool {
+    fn is_unexamined(self, ran: [bool; 5]) -> bool {
         let all_remote = self.configuration == Configuration::AllRemote;
         let iii_counts = ran[2] && (!all_remote || self.given.detections);
         self.profile == Profile::HARDENED

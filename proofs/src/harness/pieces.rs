@@ -1,18 +1,15 @@
 //! Pieces of stages on small lists: none panics at any numbers, and what they name is there. Compiled,
 //! they go on whatever `exact`, `rounding` and `libm` answer.
 
-use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint,
-};
+use mufasa::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::parts::{gated_tracks, points_examined, start_failure};
 use mufasa::report::{Rule, Witness};
 
 use super::any::{near, near_integer, profile};
 use super::bounds::{DETECTIONS, POINTS, TRACKS};
-use super::items::{detection, point, track};
+use super::items::{detection, ego, parameters, point, track};
 use super::scene::alone;
-use super::world::{ego, parameters};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -76,6 +73,5 @@ fn direction() -> [f64; 2] {
 
 /// Any CAV and its parameters alone.
 fn cycle(profile: Profile) -> Cycle<'static> {
-    let [cos, sin] = direction();
-    alone(profile, parameters(), Ego { cos, sin, ..ego() }, near_integer(10, 12))
+    alone(profile, parameters(), ego(direction()), near_integer(10, 12))
 }

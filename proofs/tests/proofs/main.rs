@@ -1,12 +1,7 @@
 //! `proofs/expected.toml`, the source of the harnesses and the list of them say the same.
 
 mod expected;
-mod export;
 mod harness;
-mod kani_export;
-mod laws;
-mod laws_requester;
-mod laws_schedule;
 mod source;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,22 +1,16 @@
-//! Says what is found of a theorem, bound or range; for `scripts/mutants`.
+//! Says what is found of a theorem; for `scripts/mutants`.
 
 use std::io;
 
 use mufasa_theorems::claim::Decision;
 use mufasa_theorems::prove::prove_claim;
-use mufasa_theorems::{doubles, gappa, theorem};
+use mufasa_theorems::theorem;
 
 fn main() -> io::Result<()> {
     let name = std::env::args().nth(1).unwrap_or_default();
     let theorem = theorem::all().find(|theorem| theorem.id == name);
-    let bound = gappa::BOUNDS.iter().find(|bound| bound.id == name);
-    let range = doubles::RANGES.iter().find(|range| range.id == name);
-    let decision = match (theorem, bound, range) {
-        (Some(theorem), ..) => prove_claim(&theorem.claim)?.decision,
-        (None, Some(bound), _) => bound.judge()?.0,
-        (None, None, Some(range)) => range.judge()?.claim,
-        (None, None, None) => return Err(io::Error::other("nothing has such a name")),
-    };
+    let theorem = theorem.ok_or_else(|| io::Error::other("nothing has such a name"))?;
+    let decision = prove_claim(&theorem.claim)?.decision;
     match decision {
         Decision::Proved => println!("proved"),
         Decision::Refuted(_) => println!("refuted"),

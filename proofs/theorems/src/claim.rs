@@ -56,7 +56,7 @@ pub struct Judgement {
     pub claim: Decision,
     /// Of its wrong variant, which must be refuted.
     pub control: Decision,
-    /// Paths of the claim executed, of which ranges of doubles have one.
+    /// Paths of the claim executed.
     pub paths: usize,
     /// Time taken.
     pub time: Duration,

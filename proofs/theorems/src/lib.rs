@@ -7,11 +7,8 @@
 //! to z3: is there a counterexample?
 
 pub mod claim;
-pub mod doubles;
-pub mod gappa;
 pub mod input;
 pub mod numbers;
-mod process;
 pub mod prove;
 pub mod solver;
 pub mod theorem;

@@ -150,26 +150,19 @@ pub(super) struct ExploreArguments {
     /// Only this world.
     #[arg(long, value_name = "NAME")]
     pub(super) world: Option<String>,
-    /// Threads of the second engine, stateright; 0 leaves it out. By default all.
-    #[arg(long, value_name = "N", value_parser = whole(0_usize, 1024))]
-    pub(super) threads: Option<usize>,
     /// Put the tables into a document, between the lines that mark their place.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
     pub(super) into: Option<PathBuf>,
     /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails [default: exploration].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Serve stateright's explorer page for a world at this address instead.
-    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:3000")]
-    pub(super) serve: Option<String>,
 }
 
 #[derive(Args)]
 #[command(after_help = "\
-Engines: z3 (theorems over the reals), gappa (rounding errors), bitwuzla (ranges in doubles), exploration
-(the protocol), laws (finite domains), harnesses (of impl; most are proved only where scripts/prove-wasm
-was run before, else tested); those that are not here are listed as not run. The first lines say which
-are missing, and where they come from.
+Engines: z3 (theorems over the reals), exploration (the protocol), harnesses (of impl; most are proved
+only where scripts/prove-wasm was run before, else tested); those that are not here are listed as not run.
+The first lines say which are missing, and where they come from.
 
 Exit codes: 0 whatever was run is proved, or tested where no engine proves it, 1 something is refuted or
 not known, 2 bad input or an engine broke down. With --require 1 also where a claim of the list is not

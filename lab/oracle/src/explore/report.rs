@@ -45,10 +45,6 @@ pub struct WorldRow {
     pub seconds: f64,
     /// Bytes that the states take.
     pub bytes: usize,
-    /// Reachable states as stateright counts them; `None`: it was not asked.
-    pub stateright_states: Option<usize>,
-    /// Seconds of stateright.
-    pub stateright_seconds: Option<f64>,
 }
 
 /// A property with its verdict.
@@ -95,7 +91,7 @@ impl ExplorationReport {
 
     /// The worlds with their sizes.
     pub fn worlds(&self) -> Rows {
-        let columns: [Column<WorldRow>; 10] = [
+        let columns: [Column<WorldRow>; 8] = [
             text("world", |it| it.name.to_owned()),
             number("requester: states", |it| grouped(wide(it.requester_states))),
             number("steps compared", |it| grouped(wide(it.steps_compared))),
@@ -104,13 +100,6 @@ impl ExplorationReport {
             number("depth", |it| it.depth.to_string()),
             number("seconds", |it| format!("{:.1}", it.seconds)),
             number("MB", |it| it.bytes.div_ceil(1 << 20).to_string()),
-            number("stateright: states", |it| {
-                let none = || String::from("not asked");
-                it.stateright_states.map_or_else(none, |it| grouped(wide(it)))
-            }),
-            number("seconds", |it| {
-                it.stateright_seconds.map_or_else(String::new, |it| format!("{it:.1}"))
-            }),
         ];
         Rows::new(&self.worlds, &columns)
     }
@@ -131,7 +120,6 @@ impl WorldRow {
     fn new(outcome: &WorldOutcome) -> Self {
         let world = outcome.system.world();
         let requesters = outcome.system.requesters();
-        let second = outcome.second.as_ref();
         Self {
             name: world.name,
             why: world.why,
@@ -142,8 +130,6 @@ impl WorldRow {
             depth: outcome.depth,
             seconds: outcome.time.as_secs_f64(),
             bytes: outcome.bytes,
-            stateright_states: second.map(|(it, _)| it.states),
-            stateright_seconds: second.map(|(_, time)| time.as_secs_f64()),
         }
     }
 }

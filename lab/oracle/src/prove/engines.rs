@@ -2,7 +2,6 @@
 
 mod exploration;
 mod harnesses;
-mod laws;
 mod solvers;
 
 use std::io;
@@ -18,37 +17,21 @@ use super::settings::Settings;
 pub enum ClaimSource {
     /// Theorems over the reals about the model's source.
     Theorems,
-    /// Rounding errors.
-    Gappa,
-    /// Ranges of what is computed in doubles.
-    Doubles,
     /// Every reachable state of the protocol within small bounds.
     Exploration,
-    /// Laws of the implementation over complete finite domains.
-    Laws,
     /// Harnesses of the implementation: compiled code, the stand-in for Kani.
     Harnesses,
 }
 
 impl ClaimSource {
     /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Theorems,
-        Self::Gappa,
-        Self::Doubles,
-        Self::Exploration,
-        Self::Laws,
-        Self::Harnesses,
-    ];
+    pub const ALL: [Self; 3] = [Self::Theorems, Self::Exploration, Self::Harnesses];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Theorems => "z3",
-            Self::Gappa => "gappa",
-            Self::Doubles => "bitwuzla",
             Self::Exploration => "exploration",
-            Self::Laws => "laws",
             Self::Harnesses => "harnesses",
         }
     }
@@ -57,10 +40,7 @@ impl ClaimSource {
     pub fn claims(self) -> io::Result<Vec<Claim>> {
         let (engines, mut lines): (&[Engine], _) = match self {
             Self::Theorems => (&[Engine::Z3], solvers::theorems()),
-            Self::Gappa => (&[Engine::Gappa], solvers::bounds()),
-            Self::Doubles => (&[Engine::Bitwuzla], solvers::ranges()),
             Self::Exploration => (&[Engine::Exploration], exploration::claims()),
-            Self::Laws => (&[Engine::Laws], laws::claims()?),
             Self::Harnesses => (&[Engine::Harnesses, Engine::Cbmc], harnesses::claims()?),
         };
         let mutants = mufasa_mutants::all().map_err(io::Error::other)?;
@@ -96,9 +76,8 @@ impl ClaimSource {
         }
         bar.set_length(u64::try_from(claims.len()).unwrap_or(u64::MAX));
         let lines = match self {
-            Self::Theorems | Self::Gappa | Self::Doubles => solvers::judge(self, claims, bar),
+            Self::Theorems => solvers::judge(claims, bar),
             Self::Exploration => Ok(exploration::judge(claims, bar)),
-            Self::Laws => Ok(laws::judge(claims, bar)),
             Self::Harnesses => harnesses::judge(claims, settings, bar),
         };
         bar.finish_and_clear();
@@ -131,14 +110,14 @@ pub fn missing(
     for source in ClaimSource::ALL {
         let wanted = source.wanted(is_wanted)?;
         let (claims, engine, package) = match source {
-            ClaimSource::Exploration | ClaimSource::Laws => continue,
+            ClaimSource::Exploration => continue,
             ClaimSource::Harnesses => {
                 let claims = harnesses::not_compiled(&wanted, settings)?;
                 (claims, harnesses::COMPILED, harnesses::PACKAGE)
             }
-            ClaimSource::Theorems | ClaimSource::Gappa | ClaimSource::Doubles => {
-                let claims = if solvers::is_here(source) { 0 } else { wanted.len() };
-                (claims, source.name(), solvers::package(source))
+            ClaimSource::Theorems => {
+                let claims = if solvers::is_here() { 0 } else { wanted.len() };
+                (claims, source.name(), solvers::PACKAGE)
             }
         };
         if claims > 0 {

@@ -87,7 +87,6 @@ fn arguments_that_make_no_sense_are_refused_with_their_limits() {
         (&["conform", "python3", "x.py"], behind),
         (&["conform", "--cases", "20", "./x"], behind),
         (&["conform"], behind),
-        (&["explore", "--threads", "many"], "must be a whole number from 0 to 1024"),
         (&["evaluate", "--scenarios", "0"], "must be a whole number from 1 to 10000"),
         (&["evaluate", "replay", "--route", "2"], "must be a whole number from 0 to 1"),
         (&["compose"], "required"),
@@ -96,8 +95,8 @@ fn arguments_that_make_no_sense_are_refused_with_their_limits() {
         // What cannot be written or read is refused before the work.
         (&["vehicle", "--json", place], "it is a folder; name a file"),
         (&["station", "--broker", "amqp://127.0.0.1:1", "--json", place], "it is a folder"),
-        (&["prove", "--out", place, "gappa"], "it is a folder"),
-        (&["prove", "--cbmc", "gone", "gappa"], "gone: is not there; scripts/prove-wasm writes"),
+        (&["prove", "--out", place, "z3"], "it is a folder"),
+        (&["prove", "--cbmc", "gone", "z3"], "gone: is not there; scripts/prove-wasm writes"),
         (&["evaluate", "replay", "--out", place], "it is a folder"),
     ] {
         let told = mufasa(arguments);

@@ -107,7 +107,7 @@ fn claims_are_what_their_schema_says() {
 #[test]
 fn an_exploration_is_what_its_schema_says() {
     let (validators, folder) = (validators(), folder("explore"));
-    run(&folder, &["explore", "--profile", "hardened", "--world", "honest", "--threads", "0"]);
+    run(&folder, &["explore", "--profile", "hardened", "--world", "honest"]);
     let text = fs::read_to_string(folder.join("exploration/exploration.json"));
     assert_valid(&validators["exploration"], &parsed(&text.expect("it was written")));
 }

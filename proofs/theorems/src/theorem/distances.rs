@@ -1,19 +1,12 @@
-//! The distances (`spec/3-stages.md#distances`), F-04, F-05, and the distance of RSS. In doubles they move the
-//! same way as over the reals: every operation is rounded, and all that is used of rounding is that it is
-//! monotone and keeps 0.
+//! The distances (`spec/3-stages.md#distances`), F-04, F-05, and the distance of RSS.
 
 use crate::claim::{Theorem, Wrong};
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{
-    Formula, at_most, equal, given, iff, implies, less, not, round_every_result,
-};
+use crate::numbers::real::formula::{Formula, at_most, equal, given, iff, implies, less, not};
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
 const DOMAIN: &str = "all speeds >= 0, a_b > 0, safety_time >= 0";
-const ROUNDING: &str = "all speeds >= 0, a_b > 0, safety_time >= 0; operations as in model/src/stages/distances.rs, \
-                        every monotone rounding that keeps 0 and does not turn 2 a_b into it";
-
-/// The theorems of this file over the reals.
+/// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "s_b_grows_with_v",
@@ -137,40 +130,6 @@ pub const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// Those with every operation rounded.
-pub const ROUNDED: &[Theorem] = &[
-    Theorem {
-        id: "rounded_s_b_grows_with_v",
-        statement: "v <= w implies s_b(v) <= s_b(w), every operation rounded",
-        domain: ROUNDING,
-        claim: || rounded(at_most, |it| [it.s_b(&it.v), it.s_b(&it.w)]),
-        wrong: Wrong {
-            statement: "v < w implies s_b(v) < s_b(w)",
-            claim: || rounded(less, |it| [it.s_b(&it.v), it.s_b(&it.w)]),
-        },
-    },
-    Theorem {
-        id: "rounded_s_follow_grows_with_v_now",
-        statement: "v <= w implies s_follow(v, v_lead) <= s_follow(w, v_lead), every operation rounded",
-        domain: ROUNDING,
-        claim: || rounded(at_most, |it| [it.follow(&it.v, &it.u), it.follow(&it.w, &it.u)]),
-        wrong: Wrong {
-            statement: "v < w implies s_follow(v, v_lead) < s_follow(w, v_lead)",
-            claim: || rounded(less, |it| [it.follow(&it.v, &it.u), it.follow(&it.w, &it.u)]),
-        },
-    },
-    Theorem {
-        id: "rounded_s_follow_falls_with_v_lead",
-        statement: "v <= w implies s_follow(v_now, w) <= s_follow(v_now, v), every operation rounded",
-        domain: ROUNDING,
-        claim: || rounded(at_most, |it| [it.follow(&it.u, &it.w), it.follow(&it.u, &it.v)]),
-        wrong: Wrong {
-            statement: "v <= w implies s_follow(v_now, v) <= s_follow(v_now, w)",
-            claim: || rounded(at_most, |it| [it.follow(&it.u, &it.v), it.follow(&it.u, &it.w)]),
-        },
-    },
-];
-
 type Order = fn(&Real, &Real) -> Formula;
 
 /// Speeds v and w and another u, a_b, safety_time.
@@ -230,16 +189,6 @@ impl Speeds {
 /// Of speeds v <= w.
 fn any(claim: fn(&Speeds) -> Formula) -> Formula {
     claim(&Speeds::new(at_most))
-}
-
-/// Numbers of speeds in this order are in it, every operation rounded.
-fn rounded(order: Order, numbers: fn(&Speeds) -> [Real; 2]) -> Formula {
-    let speeds = Speeds::new(order);
-    // In doubles 2 a_b is exact.
-    round_every_result();
-    given(less(&Real::zero(), &(Real::from_integer(2) * &speeds.a_b)));
-    let [a, b] = numbers(&speeds);
-    order(&a, &b)
 }
 
 /// The longitudinal distance of RSS without acceleration during the response time

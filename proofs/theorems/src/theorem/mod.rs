@@ -33,5 +33,4 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
     .into_iter()
     .flatten()
     .chain(closures)
-    .chain(distances::ROUNDED)
 }

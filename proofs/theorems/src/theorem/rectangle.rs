@@ -1,5 +1,6 @@
 //! Two closed rectangles and the separating-axis test
-//! (`spec/3-stages.md#low-level-collision-check-llcc`). Directions are any vectors but 0: used as
+//! (`spec/3-stages.md#low-level-collision-check-llcc`), which stage iii asks of tracks
+//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`). Directions are any vectors but 0: used as
 //! given, they scale the rectangle.
 
 use crate::claim::{Theorem, Wrong};

@@ -57,7 +57,7 @@ pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> Vec<Claim> {
         }
         bar.set_message(world.name);
         bar.inc(1);
-        match run::explore(world, Profile::HARDENED, 0, |_| bar.tick()) {
+        match run::explore(world, Profile::HARDENED, |_| bar.tick()) {
             Ok(outcome) => outcome.results.iter().for_each(|finding| {
                 let found = found.entry(finding.property.name()).or_default();
                 found.add(world, &outcome, finding);

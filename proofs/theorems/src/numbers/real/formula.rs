@@ -54,21 +54,6 @@ pub fn iff(a: &Formula, b: &Formula) -> Formula {
     Formula::All(vec![implies(a.clone(), b.clone()), implies(b.clone(), a.clone())])
 }
 
-/// Two numbers and what a monotone function makes of them are in the same order.
-pub fn same_order([a, of_a]: [&Real; 2], [b, of_b]: [&Real; 2]) -> Formula {
-    Formula::All(vec![
-        implies(at_most(a, b), at_most(of_a, of_b)),
-        implies(at_most(b, a), at_most(of_b, of_a)),
-    ])
-}
-
-/// From here on every sum, difference, product and quotient is rounded, by one function of which
-/// only this is known: it is monotone and keeps 0. Rounding to doubles is such a function, in every
-/// direction and also where numbers underflow; where they overflow there is no real number.
-pub fn round_every_result() {
-    path::with(|path| path.rounds = true);
-}
-
 /// From here on the solver knows of a root only that it is >= 0, and what lemmas say of it.
 pub fn forget_of_what_roots_are() {
     path::with(|path| path.roots_are_any_numbers = true);

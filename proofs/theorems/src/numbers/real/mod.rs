@@ -7,7 +7,6 @@ pub mod formula;
 pub mod hole;
 pub mod path;
 pub mod polynomial;
-pub mod program;
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -18,7 +17,6 @@ use dashu_ratio::RBig;
 
 use path::{Operation, Signs};
 use polynomial::Polynomial;
-use program::{Operator, Program};
 
 /// A symbolic number: a polynomial in the variables of the path.
 #[derive(Clone, Debug)]
@@ -79,15 +77,11 @@ impl Real {
     }
 
     /// The square root of a number that is not negative.
-    ///
-    /// # Panics
-    /// If the operations are taken down as a program, which takes no roots here.
     #[must_use]
     pub fn sqrt(&self) -> Self {
         if let Some(root) = self.rational_root() {
             return root;
         }
-        assert!(path::with(|path| path.steps.is_none()), "a program here takes no roots");
         self.made(Operation::Root, |root| {
             root.assume(Signs::AT_LEAST_ZERO);
             if !path::with(|path| path.roots_are_any_numbers) {
@@ -111,25 +105,7 @@ impl Real {
     /// The larger one.
     #[must_use]
     pub fn max(self, other: Self) -> Self {
-        Self::step(Operator::Max, &self, &other).unwrap_or_else(|| Ord::max(self, other))
-    }
-
-    /// The result of an operation: rounded by one monotone function that keeps 0, if this path
-    /// rounds (`formula::round_every_result`).
-    fn result(self) -> Self {
-        if !path::with(|path| path.rounds) || self.0.as_constant().is_some() {
-            return self;
-        }
-        let mut before: Vec<(Self, Self)> = path::with(|path| {
-            let made = path.made.iter().filter(|((kind, _), _)| *kind == Operation::Rounding);
-            made.map(|((_, from), to)| (Self::of(from.clone()), Self::of(to.clone()))).collect()
-        });
-        before.push((Self::zero(), Self::zero()));
-        self.made(Operation::Rounding, |rounded| {
-            for (other, other_rounded) in &before {
-                formula::given(formula::same_order([&self, rounded], [other, other_rounded]));
-            }
-        })
+        Ord::max(self, other)
     }
 
     /// The double of a constant, for witnesses; NaN of anything else, as no formula reads it.
@@ -178,28 +154,6 @@ impl Real {
         path::with(|path| path.assume(&self.0, signs));
     }
 
-    /// Executes the formula and takes down its operations. Its inputs are `Real::named`.
-    ///
-    /// # Panics
-    /// If it compares numbers other than by `max`, or takes roots: a program here has no branches.
-    pub fn record(formula: impl FnOnce() -> Vec<Self>) -> Program {
-        path::first();
-        path::with(|path| path.steps = Some(Vec::new()));
-        let results = formula();
-        let program = path::with(|path| Program {
-            results: results.iter().map(|number| path.operand(&number.0)).collect(),
-            steps: path.steps.take().unwrap_or_default(),
-        });
-        path::first();
-        program
-    }
-
-    /// The result of a step of a program, if operations are taken down and this is none of constants.
-    fn step(operator: Operator, a: &Self, b: &Self) -> Option<Self> {
-        let variable = path::with(|path| path.step(operator, [&a.0, &b.0]))?;
-        Some(Self::of(Polynomial::variable(variable)))
-    }
-
     fn of(polynomial: Polynomial) -> Self {
         Self(Rc::new(polynomial))
     }
@@ -224,7 +178,6 @@ impl Real {
         let name = match operation {
             Operation::Root => "root",
             Operation::Inverse => "inverse",
-            Operation::Rounding => "rounded",
         };
         let made = path::with(|path| format!("{name} {}", path.names.len()));
         let made = Self::variable(&made);
@@ -233,7 +186,7 @@ impl Real {
         made
     }
 
-    /// The exact difference: comparisons do not round.
+    /// The difference.
     pub(crate) fn minus(&self, other: &Self) -> Self {
         Self::of(self.0.plus(&RBig::NEG_ONE, &other.0))
     }
@@ -333,8 +286,7 @@ impl std::iter::Sum for Real {
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        let step = Real::step(Operator::Minus, &Real::zero(), self);
-        step.unwrap_or_else(|| Real::of(self.0.scaled(&RBig::NEG_ONE)))
+        Real::of(self.0.scaled(&RBig::NEG_ONE))
     }
 }
 
@@ -346,13 +298,12 @@ impl Neg for Real {
 }
 
 macro_rules! operator {
-    ($Op:ident, $op:ident, $operator:ident, $compute:expr) => {
+    ($Op:ident, $op:ident, $compute:expr) => {
         impl $Op<&Real> for &Real {
             type Output = Real;
             fn $op(self, other: &Real) -> Real {
                 let compute: fn(&Real, &Real) -> Real = $compute;
-                let step = Real::step(Operator::$operator, self, other);
-                step.unwrap_or_else(|| compute(self, other).result())
+                compute(self, other)
             }
         }
         impl $Op<Real> for &Real {
@@ -376,7 +327,7 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, Plus, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)));
-operator!(Sub, sub, Minus, |a, b| a.minus(b));
-operator!(Mul, mul, Times, |a, b| a.times(b));
-operator!(Div, div, Over, |a, b| a.times(&b.inverse()));
+operator!(Add, add, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)));
+operator!(Sub, sub, |a, b| a.minus(b));
+operator!(Mul, mul, |a, b| a.times(b));
+operator!(Div, div, |a, b| a.times(&b.inverse()));

@@ -9,7 +9,6 @@ use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
 
 use crate::numbers::real::polynomial::{Polynomial, Rules, Variable};
-use crate::numbers::real::program::{Operand, Operator, Step};
 
 /// For telling whether a branch can be reached. Without an answer the branch is taken.
 const BRANCH: Effort = Effort { steps: 30_000, limit_ms: 1000 };
@@ -75,11 +74,7 @@ pub struct Path {
     /// Roots made from here on are any numbers >= 0: the solver is not told of what. Facts about
     /// them have to be assumed, each a lemma. Fewer assumptions never prove more.
     pub roots_are_any_numbers: bool,
-    /// Every sum, difference, product and quotient is rounded by some monotone function.
-    pub rounds: bool,
-    /// The operations so far, while they are taken down (`Real::record`).
-    pub steps: Option<Vec<Step>>,
-    /// Roots, quotients, absolute values and roundings made so far, by what they are made of.
+    /// Roots and quotients made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
     signs: BTreeMap<Polynomial, Signs>,
     /// Comparisons answered by a branch so far.
@@ -93,8 +88,6 @@ pub enum Operation {
     Root,
     /// One over the number.
     Inverse,
-    /// Rounding by some monotone function.
-    Rounding,
 }
 
 /// An answer given at a branch, and whether the other remains to be tried.
@@ -154,15 +147,11 @@ pub fn next() -> bool {
 
 /// Whether the sign of the polynomial is one of these: known, or both answers are tried, each on a
 /// path of its own, as far as the solver does not rule one out.
-///
-/// # Panics
-/// If the operations are taken down as a program, which has no branches.
 pub fn branch(polynomial: &Polynomial, signs: Signs) -> bool {
     EXECUTION.with_borrow_mut(|execution| {
         if let Some(value) = polynomial.as_constant() {
             return !Signs::of(&value).and(signs).is_empty();
         }
-        assert!(execution.path.steps.is_none(), "a formula with branches is no program");
         let (key, signs) = execution.path.key(polynomial, signs);
         let known = execution.path.signs_of(&key);
         if known.and(signs.complement()).is_empty() {
@@ -208,38 +197,6 @@ impl Path {
         known
             .and_then(|place| Variable::try_from(place).ok())
             .unwrap_or_else(|| self.variable(name))
-    }
-
-    /// The result of a step, if operations are taken down and this is none of two constants.
-    pub(super) fn step(
-        &mut self,
-        operator: Operator,
-        operands: [&Polynomial; 2],
-    ) -> Option<Variable> {
-        self.steps.as_ref()?;
-        let operands = operands.map(|number| self.operand(number));
-        if let [Operand::Constant(_), Operand::Constant(_)] = operands {
-            return None;
-        }
-        let steps = self.steps.get_or_insert_default();
-        let same = |step: &&Step| step.operator == operator && step.operands == operands;
-        let name = if let Some(known) = steps.iter().find(same) {
-            known.name.clone()
-        } else {
-            let name = format!("t{}", steps.len() + 1);
-            steps.push(Step { name: name.clone(), operator, operands });
-            name
-        };
-        Some(self.named(&name))
-    }
-
-    /// A constant, or the name of an input or of the result of a step.
-    pub(super) fn operand(&self, number: &Polynomial) -> Operand {
-        if let Some(value) = number.as_constant() {
-            return Operand::Constant(value);
-        }
-        let (variable, _) = number.terms().next().expect("a number that is not constant");
-        Operand::Name(self.names[usize::from(variable[0])].clone())
     }
 
     /// A new variable. A name that is taken gets a number, so that two of one name differ.
