@@ -10,6 +10,7 @@ pub mod names;
 pub mod offloading_answer;
 pub mod record;
 pub mod schema;
+pub mod witness_answer;
 pub mod write;
 
 mod order;

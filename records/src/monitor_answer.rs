@@ -6,10 +6,10 @@ use mufasa_model::report::{FailedStage, Input, InvalidInput, Reading, Report};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answer::{InputProblem, WitnessAnswer};
 use crate::offloading_answer::{ActionAnswer, StateAnswer};
 use crate::record::monitor::Sequence;
 use crate::record::value::Word;
+use crate::witness_answer::{InputProblem, WitnessAnswer};
 
 /// One state per event or cycle.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]

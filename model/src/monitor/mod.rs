@@ -198,7 +198,7 @@ impl Monitor {
     }
 
     /// Gives the requester an event. When it ends sessions, their waits begin before it: so no request of
-    /// the same tick is sent in them. [MON-34] [MON-38] [MON-39]
+    /// the same tick is sent in them. [MON-34] [MON-38] [MON-39] [MON-64]
     fn tell(&mut self, t_ns: i64, kind: requester::EventKind) -> Done {
         let event = requester::Event { t_ns, kind };
         let mut after = self.requester.clone();

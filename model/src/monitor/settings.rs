@@ -59,7 +59,7 @@ pub fn fits<T>(items: &[T], places: i64) -> bool {
 }
 
 impl Settings {
-    /// The first setting that is refused. [MON-18] [MON-21] to [MON-27], [MON-29], [MON-60]
+    /// The first setting that is refused. [MON-18] [MON-21] to [MON-27], [MON-29], [MON-60], [MON-62]
     pub fn check(&self, route: &Route) -> Result<(), InvalidInput> {
         self.check_parameters()?;
         self.check_times()?;

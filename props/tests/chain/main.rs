@@ -67,7 +67,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("spec/5-interfaces.md#vectors", Cell::Proof, "tested only"),
     ("spec/5-interfaces.md#vectors", Cell::Vector, "about all of them"),
     ("spec/5-interfaces.md#vectors", Cell::Bench, "of the tools"),
-    ("spec/monitor.md", Cell::Vector, "no record drives events and cycles together"),
     ("spec/5-interfaces.md#precheck", Cell::Model, "has no rule: it asks the stages"),
     ("spec/5-interfaces.md#precheck", Cell::Vector, "of a station: nothing that a CAV answers"),
     ("spec/6-link.md", Cell::Model, "bytes, not verdicts: `lab/link/src/message`"),

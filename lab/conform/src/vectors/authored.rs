@@ -5,7 +5,7 @@
 //!
 //! * `cycle`: what differs from `base.json`, by pointer (RFC 6901). Fields of points and objects
 //!   may be left out ([`DEFAULTS`]), [`Shape`] abbreviates long lists;
-//! * `trace` and `task`: records without kind and id;
+//! * `trace` and `task`: records without kind and id; `sequence`: one of the monitor, see `sequences.rs`;
 //! * `replace`: a part of the written cycle, and what stands there instead so that it is refused;
 //! * `line`: a text, or one of `records/` with `old` replaced by `new`;
 //! * `edge`: the number for which `"?"` stands in the cycle is put on both sides of this threshold.
@@ -24,6 +24,7 @@ use serde_json::{Value, from_str};
 
 use crate::vectors::book::{Asked, Book, Topic};
 use crate::vectors::expected::Expected;
+use crate::vectors::sequences;
 
 /// The vectors, by the name of the file that they are published in.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/authored.rs"));
@@ -74,6 +75,8 @@ struct Authored {
     trace: Option<&'static RawValue>,
     #[serde(borrow)]
     task: Option<&'static RawValue>,
+    #[serde(borrow)]
+    sequence: Option<&'static RawValue>,
     line: Option<Line>,
     expect: Option<Facts>,
     edge: Option<Edge>,
@@ -178,6 +181,11 @@ impl Authored {
             return Ok(());
         }
         let expect = self.expect.as_ref();
+        if let Some(sequence) = self.sequence {
+            let record = sequences::written_out(sequence.get(), BASE)?;
+            let expect = expected(expect, events(&record)?)?;
+            return self.record(book, topic, (name, note), &record, &expect);
+        }
         match (&self.cycle, self.trace, self.task, &self.line) {
             (Some(cycle), None, None, None) => {
                 let record = changed(cycle, "null").map_err(text)?;
@@ -185,10 +193,8 @@ impl Authored {
             }
             (None, Some(trace), None, None) => {
                 let record = with_kind("offloading", trace);
-                let events = from_str::<Value>(trace.get()).map_err(text)?["events"]
-                    .as_array()
-                    .map_or(0, Vec::len);
-                self.record(book, topic, (name, note), &record, &expected(expect, events)?)
+                let expect = expected(expect, events(trace.get())?)?;
+                self.record(book, topic, (name, note), &record, &expect)
             }
             (None, None, Some(task), None) => {
                 let record = with_kind("composition", task);
@@ -198,7 +204,7 @@ impl Authored {
                 book.add(topic, (name, note), Asked::Line(&line.text()?), &expected(expect, 0)?);
                 Ok(())
             }
-            _ => Err(String::from("needs one of cycle, trace, task, line")),
+            _ => Err(String::from("needs one of cycle, trace, task, sequence, line")),
         }
     }
 
@@ -225,6 +231,12 @@ impl Authored {
 
 fn expected(facts: Option<&Facts>, events: usize) -> Result<Expected, String> {
     Expected::read(facts.filter(|it| !it.is_empty()).ok_or("nothing is expected")?, events)
+}
+
+/// How many events a trace or a sequence has.
+fn events(record: &str) -> Result<usize, String> {
+    let record: Value = from_str(record).map_err(text)?;
+    Ok(record["events"].as_array().map_or(0, Vec::len))
 }
 
 fn text(error: impl Display) -> String {

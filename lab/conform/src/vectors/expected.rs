@@ -28,6 +28,7 @@ impl Expected {
     /// * `last`: what the requester is and does after the last event: states of MOT and PLAN, hold,
     ///   actions in words such as `release mot 1#2` (station 1, session 2) or `activate plan`;
     /// * `compositions`: how many there are;
+    /// * `last/` or a number and `/`: a pointer from the state after the last event, or after this one;
     /// * a pointer (RFC 6901): the answer has this value there; null stands for an absent one, too.
     pub fn read(facts: &BTreeMap<String, Value>, events: usize) -> Result<Self, String> {
         let mut expected = Self::default();
@@ -62,7 +63,13 @@ impl Expected {
                     expected.facts.push(Fact::Length(String::from("/compositions"), count));
                 }
                 pointer if pointer.starts_with('/') => expected.that(pointer, value.clone()),
-                other => return Err(format!("{other} cannot be expected")),
+                below => {
+                    let (place, pointer) = below.split_once('/').ok_or_else(|| unknown(below))?;
+                    let last = (place == "last").then_some(events.saturating_sub(1));
+                    let index =
+                        last.or_else(|| place.parse().ok()).ok_or_else(|| unknown(below))?;
+                    expected.that(&format!("/states/{index}/{pointer}"), value.clone());
+                }
             }
         }
         Ok(expected)
@@ -124,6 +131,10 @@ impl Fact {
             }
         }
     }
+}
+
+fn unknown(key: &str) -> String {
+    format!("{key} cannot be expected")
 }
 
 fn outcome(letter: char) -> (&'static str, Option<&'static str>, &'static str) {

@@ -7,6 +7,7 @@ pub mod flag;
 mod authored;
 mod expected;
 mod random;
+mod sequences;
 
 use std::collections::BTreeMap;
 use std::io;

@@ -5,6 +5,7 @@
 
 mod cycles;
 mod others;
+mod sequences;
 
 use mufasa_conform::vectors::book::{STAYS, Vector};
 use mufasa_model::cycle::check;
@@ -60,8 +61,7 @@ fn killed(vector: &Vector) -> Vec<&'static str> {
         }
         Some(Record::Offloading { trace, .. }) => others::of_trace(&trace),
         Some(Record::Composition { task, .. }) => others::of_task(&task),
-        // None yet: a vector of the monitor fails here.
-        Some(Record::Monitor { .. }) => Vec::new(),
+        Some(Record::Monitor { sequence, .. }) => sequences::of_sequence(&sequence),
         None => others::of_line(vector.input.text()),
     }
 }
@@ -85,7 +85,12 @@ fn every_vector_kills_a_mutant_or_says_why_it_stays() {
     for (name, count) in &useful {
         println!("{count:5} vectors tell apart: {name}");
     }
-    for name in cycles::MUTANTS.iter().map(|(name, _)| *name).chain(others::names()) {
+    for name in cycles::MUTANTS
+        .iter()
+        .map(|(name, _)| *name)
+        .chain(others::names())
+        .chain(sequences::names())
+    {
         assert!(useful.contains_key(name), "no vector tells apart: {name}");
     }
     assert!(survived.is_empty(), "{} vectors do nothing: {survived:#?}", survived.len());

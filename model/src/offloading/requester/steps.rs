@@ -222,7 +222,7 @@ impl Requester {
             return None;
         }
         let station = self.next_station(group)?;
-        let session = self.last_session.checked_add(1)?;
+        let session = self.last_session.checked_add(1)?; // MON-61
         self.last_session = session;
         let deadline_ns = now_ns.saturating_add(self.parameters.request_timeout_ns);
         *self.group_mut(group) = Use::Requested { station, session, deadline_ns };
