@@ -1,6 +1,8 @@
 //! Parts of the stages as functions of their own, for the proofs of `proofs/` alone: with the feature
 //! `parts`, and no part of the interface.
 
+pub mod monitor;
+
 use core::cmp::Ordering;
 
 use crate::hardened::h07_start;

@@ -4,13 +4,15 @@ use super::Monitor;
 use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
+use super::released::{Released, if_kept, is_last_used, is_ticked};
 use super::stall::Stall;
+use super::time::Time;
 use crate::cycle::check_with;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
-use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
-use crate::report::{InvalidInput, Outcome, Problem, Report};
+use crate::offloading::requester::{Actions, EventKind, Running, Source};
+use crate::report::{InvalidInput, Problem, Report};
 use crate::services::configuration::{Configuration, Group};
 use crate::stages::order::is_current;
 
@@ -134,36 +136,27 @@ impl Monitor<'_> {
             *problem = named(*problem, has_route);
         }
         let dt_max_ns = self.settings.requester.dt_max_ns;
-        let is_ticked = self.ticked.take().is_some_and(|tick| {
-            let since_ns = now_ns.checked_sub(tick.as_nanoseconds());
-            since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
-        });
-        if !is_ticked && report.is_ok() && (mot.is_some() || plan.is_some()) {
+        let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
+        let is_remote = mot.is_some() || plan.is_some();
+        if report.is_ok() && is_remote && !is_ticked(ticked_ns, now_ns, dt_max_ns) {
             // Nobody looked for silence.
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
-        let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
 
         let max_age_ns = self.settings.stages.max_age_ns;
         let current = |stamp_ns| is_current(stamp_ns, now_ns, max_age_ns);
-        let tracks = tracks.filter(|list| current(list.stamp_ns));
-        let trajectory = trajectory.filter(|it| current(it.stamp_ns));
-        let has_current = [tracks.is_some(), trajectory.is_some()];
+        let has_current = [
+            tracks.is_some_and(|list| current(list.stamp_ns)),
+            trajectory.is_some_and(|it| current(it.stamp_ns)),
+        ];
         for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        // In a safe cycle with remote tracks stage i passed or had no detections; only a study leaves it out.
-        let was_compared = report
-            .as_ref()
-            .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
-        let tracks = tracks.filter(|_| is_safe && was_compared && mot.is_some());
-        let is_checked = is_safe && (mot.is_some() || plan.is_some());
-        let trajectory = trajectory.filter(|_| is_checked);
-        let used = |used: bool, running: Option<Running>| running.filter(|_| used);
-        let sessions = Sessions {
-            mot: used(tracks.is_some(), mot).map(|running| running.session),
-            plan: used(trajectory.is_some(), plan).map(|running| running.session),
-        };
+        let in_use = remote.map(|running| running.map(|running| running.session));
+        let Released { is_safe, tracks: gives_tracks, trajectory: gives_trajectory, sessions } =
+            Released::of(&report, in_use, has_current);
+        let tracks = tracks.filter(|_| gives_tracks);
+        let trajectory = trajectory.filter(|_| gives_trajectory);
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
         let brake = self.supervise(inputs, trajectory.is_some());
@@ -218,12 +211,8 @@ impl Monitor<'_> {
         let selection = self.history.select(&list);
         cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
         let report =
-            check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch)?;
-        if !holds {
-            // A list that cannot be kept would be missing in later cycles.
-            let problem = Problem::ScratchTooSmall;
-            return Err(InvalidInput { field: "detections.items", index: None, problem });
-        }
+            check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch);
+        let report = if_kept(report, holds)?;
         let [own, ..] = selection.indexes;
         let shape = own.shape();
         if is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
@@ -244,11 +233,7 @@ pub(super) fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
 /// The element, if it is the last one that the requester used in this session: of a session each that
 /// is used was generated later than the one before.
 fn last_used<'c, T>(running: &Running, element: Option<Element<'c, T>>) -> Option<Element<'c, T>> {
-    element.filter(|it| {
-        let generated_ns = it.generated.as_nanoseconds();
-        let Running { station, session, last_used_ns, .. } = *running;
-        (it.station, it.session, Some(generated_ns)) == (station, session, last_used_ns)
-    })
+    element.filter(|it| is_last_used(running, it.station, it.session, it.generated))
 }
 
 fn track_list(element: Element<'_, Track>) -> TrackList<'_> {

@@ -2,19 +2,13 @@
 //! their order.
 
 use super::Monitor;
-use super::element::{Accepted, Arrival, DropReason, Message};
-use super::served::Served;
+use super::arriving::Arriving;
+use super::element::{Accepted, Arrival, Message};
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
 use crate::input::profile::HardenedRule;
-use crate::offloading::requester::{
-    Action, Actions, Event, EventKind, GroupState, Groups, RequesterError,
-};
+use crate::offloading::requester::{Actions, Event, EventKind, Groups, RequesterError};
 use crate::services::configuration::Group;
-use crate::stages::order::is_current;
-
-/// Sessions are numbered from 1.
-const NO_SESSION: i64 = 0;
 
 impl Monitor<'_> {
     /// A station offers groups; this replaces its previous offer.
@@ -151,93 +145,26 @@ impl Monitor<'_> {
         is_too_long: bool,
     ) -> Result<(Arrival<L>, Actions), RequesterError> {
         let Message { station, session, generated, stamp, items } = message;
-        let generated_ns = generated.as_nanoseconds();
-        let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
-        // What is in time, but so old that no cycle can use it any more, is of no session, so that it is
-        // no arrival; nor is what no cycle could hold. What is stamped ahead may be for the next cycle, as
-        // long as cycles use any.
-        let is_in_time = is_current(generated_ns, now_ns, self.settings.requester.l_max_ns);
-        let max_age_ns = self.settings.stages.max_age_ns;
-        let is_too_old = stamp_ns < now_ns && !is_current(stamp_ns, now_ns, max_age_ns);
-        let is_starved = self.served.get(group).is_starved();
-        let is_no_arrival = is_too_long || (is_in_time && (is_too_old || is_starved));
-        let named = if is_no_arrival { NO_SESSION } else { session };
-        let running = self.requester.session_of(group);
-        let is_running = running.is_some_and(|it| (it.station, it.session) == (station, session));
-        let data = EventKind::Data { station, group, session: named, generated_ns };
-        let actions = self.step(now, data)?;
-        if !actions.contains(&Action::Drop(group)) {
-            let element = Accepted { station, session, generated, stamp, items };
-            return Ok((Arrival::Accepted(element), actions));
-        }
-        let why = if is_too_long {
-            DropReason::TooLong
-        } else if !is_running {
-            DropReason::OtherSession
-        } else if generated_ns > now_ns {
-            DropReason::FromTheFuture
-        } else if !is_in_time {
-            DropReason::Late
-        } else if is_too_old {
-            DropReason::TooOld
-        } else if is_starved {
-            DropReason::Starved
-        } else if self.requester.session_of(group).is_none() {
-            DropReason::AfterSilence
-        } else {
-            DropReason::NotNewer
+        let Self { settings, requester, served, .. } = self;
+        let [generated_ns, stamp_ns] = [generated, stamp].map(Time::as_nanoseconds);
+        let element = Arriving { station, group, session, generated_ns, stamp_ns, is_too_long };
+        let max_age_ns = settings.stages.max_age_ns;
+        let period_ns = || settings.period_ns();
+        let (why, by_kind) =
+            served.receive(requester, now.as_nanoseconds(), &element, max_age_ns, period_ns)?;
+        let arrival = match why {
+            None => Arrival::Accepted(Accepted { station, session, generated, stamp, items }),
+            Some(why) => Arrival::Dropped { why },
         };
-        Ok((Arrival::Dropped { why }, actions))
+        Ok((arrival, Actions::of(by_kind)))
     }
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
-        if matches!(kind, EventKind::Tick) {
-            let looks = self.settings.profile.has(HardenedRule::H14);
-            if looks && !self.history.reaches_back(t_ns) {
-                // Nothing would be examined as moving (H-14).
-                self.requester.hold(t_ns.saturating_add(1));
-            }
-            for group in Group::ALL {
-                // A hold that begins at a tick bars the requests of that tick.
-                if self.requester.is_silent(group, t_ns) {
-                    self.hold_after(group, t_ns);
-                }
-            }
-        }
-        let answer = self.requester.step(&Event { t_ns, kind });
-        let goes_on = match (&answer, kind) {
-            (Err(_), _) => true,
-            (Ok(_), EventKind::Verdict { safe, .. }) => safe,
-            (Ok(actions), EventKind::Tick) => actions.is_empty(),
-            (Ok(_), _) => false,
-        };
-        if goes_on {
-            // No session has begun, and none has ended, which would be a release.
-            return answer;
-        }
-        for group in Group::ALL {
-            let session = match self.requester.state(group) {
-                GroupState::Local | GroupState::Requested { .. } => None,
-                GroupState::Remote { session, .. } => Some(session),
-            };
-            let before = self.served.get(group).session();
-            if session == before {
-                continue;
-            }
-            if before.is_some() {
-                self.hold_after(group, t_ns);
-            }
-            *self.served.get_mut(group) = Served::since(t_ns, session);
-        }
-        answer
-    }
-
-    /// The group returns to local now: its session may have been of no use for long, and the next one
-    /// may be no better.
-    fn hold_after(&mut self, group: Group, now_ns: i64) {
-        if let Some(again_ns) = self.served.get(group).again_ns(now_ns, self.settings.period_ns()) {
-            self.requester.hold(again_ns);
-        }
+        let looks = self.settings.profile.has(HardenedRule::H14);
+        let is_blind = looks && matches!(kind, EventKind::Tick) && !self.history.reaches_back(t_ns);
+        let Self { settings, requester, served, .. } = self;
+        let event = Event { t_ns, kind };
+        served.step(requester, &event, is_blind, || settings.period_ns()).map(Actions::of)
     }
 }

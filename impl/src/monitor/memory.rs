@@ -1,5 +1,6 @@
 //! The memory that a monitor is lent for its life (`spec/monitor.md#monitor`).
 
+use super::settings::MonitorError;
 use crate::input::cycle::{CrossSection, Detection};
 use crate::input::detection_index::Slot;
 use crate::input::route_index::Block;
@@ -107,5 +108,43 @@ impl Memory<'_> {
     /// the current one. Source: `spec/monitor.md#monitor`.
     pub const fn slots_for(most: usize) -> usize {
         most.saturating_add(Self::detections_for(most))
+    }
+}
+
+/// How many there are of what a monitor is lent first. Source: `spec/monitor.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lengths {
+    /// Stations.
+    pub stations: usize,
+    /// Rows.
+    pub rows: usize,
+    /// Columns.
+    pub columns: usize,
+    /// Detections.
+    pub detections: usize,
+    /// Slots.
+    pub slots: usize,
+}
+
+impl Lengths {
+    /// The most detections of a list that can be kept; 0 in a profile that does not look back.
+    ///
+    /// Errors: too little memory. Source: `spec/monitor.md#monitor`.
+    pub fn capacity(self, looks_back: bool) -> Result<usize, MonitorError> {
+        let Self { stations, rows, columns, detections, slots } = self;
+        let capacity = if looks_back { detections.wrapping_div(PLACES) } else { 0 };
+        let least = if looks_back { PLACES } else { 0 };
+        for (field, needed, given) in [
+            ("stations", 1, stations),
+            ("detections", least, detections),
+            ("rows", 1, rows),
+            ("columns", rows, columns),
+            ("slots", Memory::slots_for(capacity), slots),
+        ] {
+            if given < needed {
+                return Err(MonitorError::Memory { field, needed, given });
+            }
+        }
+        Ok(capacity)
     }
 }

@@ -12,16 +12,18 @@
 //! before the CAV's own detections reach back half a second: without them nothing that the station leaves
 //! out is examined as moving (H-14). Both show in [`Requester::hold_until_ns`].
 
+pub(crate) mod arriving;
 mod cycle;
 mod decision;
 mod element;
 mod events;
 mod history;
 mod inputs;
-mod memory;
+pub(crate) mod memory;
 mod own_plan;
-mod route;
-mod served;
+pub(crate) mod released;
+pub(crate) mod route;
+pub(crate) mod served;
 mod settings;
 mod stall;
 mod time;
@@ -35,7 +37,7 @@ pub use self::stall::Stall;
 pub use self::time::{Time, TimeError};
 
 use self::history::History;
-use self::memory::PLACES;
+use self::memory::Lengths;
 use self::route::KeptRoute;
 use self::served::Served;
 use self::stall::Progress;
@@ -73,29 +75,16 @@ impl<'a> Monitor<'a> {
     pub fn new(settings: Settings, memory: Memory<'a>) -> Result<Self, MonitorError> {
         settings.check()?;
         let Memory { stations, rows, columns, detections, slots, cross_sections, blocks } = memory;
-        if stations.is_empty() {
-            return Err(MonitorError::Memory { field: "stations", needed: 1, given: 0 });
-        }
-        let mut capacity = 0;
-        if settings.profile.looks_back() {
-            capacity = detections.len().wrapping_div(PLACES);
-            if capacity == 0 {
-                let given = detections.len();
-                return Err(MonitorError::Memory { field: "detections", needed: PLACES, given });
-            }
-        }
-        if rows.is_empty() {
-            return Err(MonitorError::Memory { field: "rows", needed: 1, given: 0 });
-        }
-        if columns.len() < rows.len() {
-            let (needed, given) = (rows.len(), columns.len());
-            return Err(MonitorError::Memory { field: "columns", needed, given });
-        }
+        let lengths = Lengths {
+            stations: stations.len(),
+            rows: rows.len(),
+            columns: columns.len(),
+            detections: detections.len(),
+            slots: slots.len(),
+        };
+        let capacity = lengths.capacity(settings.profile.looks_back())?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
-        if given < needed {
-            return Err(too_few);
-        }
         Ok(Self {
             settings,
             requester: requester(&settings, stations)?,

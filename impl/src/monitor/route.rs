@@ -7,11 +7,11 @@ use crate::report::{InvalidInput, Problem};
 
 /// A copy of the route that was set last, and its index; at first none.
 #[derive(Debug)]
-pub(super) struct KeptRoute<'a> {
-    cross_sections: &'a mut [CrossSection],
-    blocks: &'a mut [Block],
-    count: usize,
-    closed: bool,
+pub(crate) struct KeptRoute<'a> {
+    pub(crate) cross_sections: &'a mut [CrossSection],
+    pub(crate) blocks: &'a mut [Block],
+    pub(crate) count: usize,
+    pub(crate) closed: bool,
 }
 
 impl<'a> KeptRoute<'a> {
@@ -20,7 +20,7 @@ impl<'a> KeptRoute<'a> {
     }
 
     /// Takes the place of the route before, or changes nothing.
-    pub(super) fn set(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
+    pub(crate) fn set(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
         check_route(route)?;
         let count = route.cross_sections.len();
         if self.cross_sections.len() < count || self.blocks.len() < Block::needed(count) {
@@ -36,7 +36,7 @@ impl<'a> KeptRoute<'a> {
     }
 
     /// Without one it has no cross section, which no cycle accepts.
-    pub(super) fn route(&self) -> Route<'_> {
+    pub(crate) fn route(&self) -> Route<'_> {
         let cross_sections = self.cross_sections.get(..self.count).unwrap_or(&[]);
         Route { closed: self.closed, cross_sections }
     }

@@ -101,7 +101,7 @@ impl Settings {
 impl Settings {
     /// Until when what a cycle examines covers the CAV: `tau` after it, which the paper profile does not have.
     #[allow(clippy::cast_possible_truncation, reason = "rounded down; times saturate")]
-    pub(super) fn brake_by(&self, now_ns: i64) -> Option<Time> {
+    pub(crate) fn brake_by(&self, now_ns: i64) -> Option<Time> {
         let tau_ns = (self.stages.tau * 1e9) as i64;
         let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
         self.profile.has(HardenedRule::H14).then(by)

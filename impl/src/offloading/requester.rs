@@ -21,6 +21,7 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use self::event::ByKind;
 pub use self::event::{Action, Actions, Event, EventKind, Sessions};
 pub use self::inspect::{Running, Suspended};
 pub use self::parameters::Parameters;

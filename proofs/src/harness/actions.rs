@@ -12,6 +12,8 @@ use crate::kani;
 ///
 /// Domain: an action or none of each of the four kinds for each group, of one station and session,
 /// any one of them looked at. Not covered: which actions an event leads to, for which see `group`.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_actions_come_in_their_order() {
     let (mot, plan) = (of(Group::Mot), of(Group::Plan));
     let by_kind = [[mot[0], plan[0]], [mot[1], plan[1]], [mot[2], plan[2]], [mot[3], plan[3]]];

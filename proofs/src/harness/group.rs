@@ -268,6 +268,8 @@ fn depends_on_itself(at: usize, kind: EventKind) {
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_a_session_left_is_released_at_withdrawals() {
     let is_loss = kani::any();
     let (kind, station) = withdrawal(is_loss);

@@ -10,7 +10,7 @@ use super::any::{near, near_integer};
 const FAR: f64 = 8.0;
 
 /// Any coordinate.
-fn position() -> f64 {
+pub fn position() -> f64 {
     near(-FAR, FAR)
 }
 

@@ -49,6 +49,8 @@ pub fn verify_a_route_is_checked() {
 /// and the stamp is at most 60 s from now, or older and the list not remote.
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_tracks_are_checked() {
     let items = [track(EAST), track(EAST)];
     let (stamp_ns, now_ns, remote) = (near_integer(0, 12), near_integer(0, 12), kani::any());
@@ -76,6 +78,8 @@ pub fn verify_tracks_are_checked() {
 /// is not more than 60 s ahead of now.
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_detections_are_checked() {
     let items = [detection(EAST), detection(EAST)];
     let (stamp_ns, now_ns) = (near_integer(0, 12), near_integer(0, 12));
@@ -95,6 +99,8 @@ pub fn verify_detections_are_checked() {
 /// used, at most 60 s old; a remote one that old is refused.
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_a_trajectory_is_checked() {
     let points = [point(EAST, TIMES_NS), point(EAST, TIMES_NS)];
     let (stamp_ns, now_ns, remote) = (near_integer(0, 12), near_integer(0, 12), kani::any());
@@ -133,6 +139,8 @@ pub fn verify_a_lead_is_checked() {
 ///
 /// Domain: all numbers of 64 bits, bitmaps of up to 3 bytes, one direction. Not covered: longer
 /// bitmaps, directions.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_a_grid_is_checked() {
     const BYTES: [u8; 3] = [0; 3];
     let (of_occupied, of_unknown, is_known): (u8, u8, bool) =

@@ -16,6 +16,10 @@ pub mod exact;
 pub mod group;
 mod items;
 pub mod lists;
+pub mod monitor_arriving;
+pub mod monitor_memory;
+pub mod monitor_released;
+pub mod monitor_served;
 pub mod order;
 pub mod pieces;
 pub mod plain_distances;
@@ -79,6 +83,35 @@ harnesses! {
         verify_a_trajectory_is_checked
         verify_a_lead_is_checked
         verify_a_grid_is_checked;
+    monitor_arriving:
+        verify_a_message_is_accepted_exactly_when_it_is_of_use
+        verify_the_reason_of_a_drop_is_the_first_that_holds
+        verify_what_no_cycle_can_use_is_no_arrival;
+    monitor_memory:
+        verify_too_little_memory_is_refused
+        verify_a_route_that_does_not_fit_is_refused
+        verify_a_route_whose_index_does_not_fit_is_refused
+        verify_a_route_is_kept_whole;
+    monitor_released:
+        verify_nothing_comes_out_of_an_unsafe_cycle
+        verify_what_comes_out_is_current_and_of_a_remote_group
+        verify_the_verdict_names_exactly_what_comes_out
+        verify_detections_that_do_not_fit_are_an_error
+        verify_an_element_is_the_last_one_used
+        verify_a_tick_is_in_time_up_to_dt_max;
+    monitor_served:
+        verify_a_new_monitor_is_valid
+        verify_the_monitor_stays_valid_at_areas
+        verify_the_monitor_stays_valid_at_verdicts
+        verify_the_monitor_stays_valid_at_confirmations
+        verify_the_monitor_stays_valid_at_rejections
+        verify_the_monitor_stays_valid_at_data
+        verify_the_monitor_stays_valid_at_ticks
+        verify_the_monitor_stays_valid_at_withdrawals
+        verify_nobody_is_asked_before_half_a_second_was_seen
+        verify_the_requester_hears_what_came_out
+        verify_the_wait_is_nine_times_without_use
+        verify_a_cycle_counts_what_was_of_use;
     order:
         verify_order_is_the_table
         verify_an_input_is_current_up_to_max_age;
@@ -90,6 +123,8 @@ harnesses! {
         verify_s_b_is_bounded
         verify_s_cav_is_bounded
         verify_s_follow_is_at_least_s_cav
+        verify_s_follow_is_the_sum
+        verify_s_follow_is_exact_where_doubles_are
         verify_s_follow_is_bounded
         verify_s_follow_is_s_cav_at_equal_speeds
         verify_s_valid_has_two_cases

@@ -6,7 +6,7 @@ use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::parts::{s_b, s_cav, s_follow, s_stop, s_valid};
 
-use super::any::{same_number, within};
+use super::any::{below, same_number, within};
 use super::scene::{EGO, NOW_NS, alone};
 #[cfg(not(kani))]
 use crate::kani;
@@ -50,6 +50,46 @@ pub fn verify_s_follow_is_at_least_s_cav() {
     assert!(s_follow >= s_cav);
     kani::cover!(s_follow > s_cav, "longer than s_CAV");
     kani::cover!(s_follow <= s_cav && s_cav > 0.0, "s_CAV alone");
+}
+
+/// `s_follow` in plain doubles is the sum of the positive part of `s_b(v_now) - s_b(v_lead)` and of `s_CAV`, bit by
+/// bit.
+///
+/// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: how far the sum is from that
+/// of real numbers, which Gappa bounds.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::solver(kissat))]
+pub fn verify_s_follow_is_the_sum() {
+    let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
+    let [now, lead] = [v_now, v_lead].map(|v| s_b(&parameters, v));
+    let difference = now - lead;
+    let gap = if difference > 0.0 { difference } else { 0.0 };
+    let s_follow = s_follow(&parameters, v_now, v_lead);
+    assert!(s_follow.to_bits() == (gap + s_cav(&parameters, v_now)).to_bits());
+    kani::cover!(gap > 0.0 && s_follow > gap, "both parts");
+    kani::cover!(now < lead && s_follow > 0.0, "a faster lead");
+}
+
+/// `s_follow` in plain doubles is exactly `max(v_now^2 - v_lead^2, 0) / (2 a_b) + safety_time v_now` where doubles are
+/// exact.
+///
+/// Domain: whole speeds of `spec/4-arithmetic.md#domain` in m/s, `a_b` of 1/2, 1, 4 and 8 m/s^2, `safety_time` of 0, 1, 7 and 60 s.
+/// Not covered: other numbers, of which `verify_s_follow_is_the_sum` says what is computed.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::solver(kissat))]
+pub fn verify_s_follow_is_exact_where_doubles_are() {
+    let [n, m, t] = [below(151), below(151), below(4)];
+    let power = below(4);
+    let twice_a_b = [1.0, 2.0, 8.0, 16.0][usize::from(power)];
+    let t = [0_u8, 1, 7, 60][usize::from(t)];
+    let parameters =
+        Parameters { a_b: twice_a_b / 2.0, safety_time: f64::from(t), ..Parameters::default() };
+    let found = s_follow(&parameters, f64::from(n), f64::from(m)) * twice_a_b;
+    let [n, m, t] = [n, m, t].map(u32::from);
+    let expected = (n * n).saturating_sub(m * m) + t * n * [1, 2, 8, 16][usize::from(power)];
+    assert!(same_number(found, f64::from(expected)));
+    kani::cover!(n > m && t > 0, "both parts");
+    kani::cover!(n < m && t > 0 && n > 0, "a faster lead");
 }
 
 /// `s_follow` in plain doubles is a number from 0 to 121.5 km.

@@ -71,6 +71,8 @@ pub fn verify_a_station_below_1_is_refused() {
 ///
 /// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
 /// anything.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_every_law_at_ticks() {
     let step = after(EventKind::Tick, &mut []);
     assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
@@ -82,6 +84,8 @@ pub fn verify_every_law_at_ticks() {
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_every_law_at_withdrawals() {
     let is_loss = kani::any();
     let (kind, station) = withdrawal(is_loss);
@@ -97,6 +101,8 @@ pub fn verify_every_law_at_withdrawals() {
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_every_law_at_offers() {
     let (station, groups) = (any_station(), groups());
     let place = any_record_of(station);
@@ -109,6 +115,8 @@ pub fn verify_every_law_at_offers() {
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_a_session_left_is_released_at_offers() {
     let (station, groups) = (any_station(), groups());
     let place = any_record_of(station);

@@ -63,6 +63,11 @@ impl<'a> Requester<'a> {
         self.area
     }
 
+    /// Times in force.
+    pub(crate) const fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
     /// The requester without its table, so that the table need not stay borrowed between events.
     /// Source: `spec/2-offloading.md#requester`.
     pub const fn suspend(&self) -> Suspended {

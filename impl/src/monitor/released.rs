@@ -1,0 +1,64 @@
+//! What of a cycle comes out, and what the requester is told of it (`spec/monitor.md#monitor`).
+
+use super::time::Time;
+use crate::offloading::requester::{Running, Sessions};
+use crate::report::{InvalidInput, Outcome, Problem, Report};
+
+/// What comes out of a cycle, and its verdict. Source: `spec/monitor.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Released {
+    /// No stage failed, and there was no error.
+    pub is_safe: bool,
+    /// Whether the tracks of the station come out.
+    pub tracks: bool,
+    /// Whether the trajectory that was checked comes out.
+    pub trajectory: bool,
+    /// The sessions of the remote data that come out.
+    pub sessions: Sessions,
+}
+
+impl Released {
+    /// Of MOT and PLAN: the running session of a remote group, and whether what the cycle looked at was there and current.
+    /// Source: `spec/monitor.md#monitor`.
+    pub fn of(
+        report: &Result<Report, InvalidInput>,
+        [mot, plan]: [Option<i64>; 2],
+        [has_tracks, has_trajectory]: [bool; 2],
+    ) -> Self {
+        let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
+        // In a safe cycle with remote tracks stage i passed or had no detections; only a study leaves it out.
+        let was_compared = report
+            .as_ref()
+            .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
+        let tracks = has_tracks && is_safe && was_compared && mot.is_some();
+        let trajectory = has_trajectory && is_safe && (mot.is_some() || plan.is_some());
+        let sessions = Sessions { mot: mot.filter(|_| tracks), plan: plan.filter(|_| trajectory) };
+        Self { is_safe, tracks, trajectory, sessions }
+    }
+}
+
+/// The report, if the detections of the cycle can be kept: a list that cannot would be missing in later cycles.
+///
+/// Errors: that of the report; the list does not fit. Source: `spec/monitor.md#monitor`.
+pub fn if_kept(report: Result<Report, InvalidInput>, fits: bool) -> Result<Report, InvalidInput> {
+    let problem = Problem::ScratchTooSmall;
+    match report {
+        Ok(_) if !fits => Err(InvalidInput { field: "detections.items", index: None, problem }),
+        report => report,
+    }
+}
+
+/// Whether the element with this station, session and generation time is the last one that the requester used in the
+/// session. Source: `spec/monitor.md#monitor`.
+pub fn is_last_used(running: &Running, station: i64, session: i64, generated: Time) -> bool {
+    let generated_ns = Some(generated.as_nanoseconds());
+    (station, session, generated_ns) == (running.station, running.session, running.last_used_ns)
+}
+
+/// Whether the last tick since the cycle before is in time, ns. Source: `spec/monitor.md#monitor`.
+pub fn is_ticked(ticked_ns: Option<i64>, now_ns: i64, dt_max_ns: i64) -> bool {
+    ticked_ns.is_some_and(|tick_ns| {
+        let since_ns = now_ns.checked_sub(tick_ns);
+        since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
+    })
+}
