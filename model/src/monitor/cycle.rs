@@ -4,8 +4,7 @@ use super::brake_by::brake_by_ns;
 use super::elements::{Element, is_current, of_session};
 use super::messages::{Brake, Decision, Measured, Verified};
 use super::settings::fits;
-use super::{Done, Monitor, history, supervision, ticks};
-use crate::cycle::check;
+use super::{Done, Judge, Monitor, history, supervision, ticks};
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
 use crate::input::domain::{Problem, first_problem};
 use crate::numbers::vector::Vector;
@@ -15,7 +14,12 @@ use crate::services::configuration::{Configuration, Group};
 
 impl Monitor {
     /// Decides a cycle, gives the requester the verdict, and hands out what was verified.
-    pub(super) fn cycle(&mut self, now_ns: i64, measured: Measured) -> (Decision, Done) {
+    pub(super) fn cycle(
+        &mut self,
+        now_ns: i64,
+        measured: Measured,
+        judge: Judge<'_>,
+    ) -> (Decision, Done) {
         let own = self.own(now_ns, measured);
         let cycle = self.asked(&own);
         let local_problem = match first_problem(&cycle) {
@@ -27,7 +31,7 @@ impl Monitor {
         let report = match &local_problem {
             Some(problem) => Err(problem.clone()),
             None if !silence_is_noticed => Err(ticks::error()), // [MON-45] [MON-46]
-            None => check(&cycle, self.reading),
+            None => judge(&cycle),
         };
         if local_problem.is_none() {
             self.remember(&own);
@@ -45,7 +49,7 @@ impl Monitor {
 
         let configuration = self.requester.configuration();
         self.progress.after_cycle(now_ns, configuration.remote().plan);
-        self.brake = self.brake_after(own, trajectory.is_some());
+        self.brake = self.brake_after(own, trajectory.is_some(), judge);
         let by_ns = brake_by_ns(cycle.profile, &cycle.parameters, now_ns);
         let brake_by_ns = trajectory.and(by_ns);
         (Decision { report, tracks, trajectory, brake_by_ns, brake: self.brake.clone() }, done)
@@ -151,7 +155,12 @@ impl Monitor {
     }
 
     /// Whether the decision says `brake`. [MON-47] [MON-48] [MON-49] [MON-52]
-    fn brake_after(&self, own: Cycle, trajectory_comes_out: bool) -> Option<Brake> {
+    fn brake_after(
+        &self,
+        own: Cycle,
+        trajectory_comes_out: bool,
+        judge: Judge<'_>,
+    ) -> Option<Brake> {
         if !self.settings.supervise_local || trajectory_comes_out {
             return None;
         }
@@ -165,6 +174,6 @@ impl Monitor {
         let detection_history = self.history.of_cycle(own.now_ns, current);
         let misfit = self.misfit(&own);
         let cycle = Cycle { detection_history, ..own };
-        supervision::examine(&cycle, misfit.as_ref(), self.reading)
+        supervision::examine(&cycle, misfit.as_ref(), judge)
     }
 }

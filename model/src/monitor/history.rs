@@ -62,6 +62,11 @@ impl History {
         usable.into_iter().filter(is_chosen).cloned().collect()
     }
 
+    /// The stamps of the lists, ns, the youngest first.
+    pub fn stamps_ns(&self) -> impl Iterator<Item = i64> {
+        self.0.iter().map(|list| list.stamp_ns)
+    }
+
     /// Whether a list is at least 500 ms and at most 1 s older than a tick. [MON-43]
     pub fn has_seen_long(&self, tick_ns: i64) -> bool {
         let [least, most] = SEEN_LONG_NS;

@@ -28,12 +28,14 @@ pub mod ticks;
 pub mod wait;
 
 mod cycle;
+mod inspect;
 
 use std::collections::BTreeMap;
 
-use crate::input::cycle::{Route, TrackList, Trajectory};
+use crate::cycle::check;
+use crate::input::cycle::{Cycle, Route, TrackList, Trajectory};
 use crate::offloading::requester::{self, Action, Requester};
-use crate::report::{InvalidInput, Reading};
+use crate::report::{InvalidInput, Reading, Report};
 use crate::services::configuration::{Group, Groups};
 use elements::{Arrival, Element};
 use history::History;
@@ -61,6 +63,9 @@ pub struct Monitor {
     /// What the last decision said of braking at once.
     brake: Option<Brake>,
 }
+
+/// What the stages say of a cycle; `Err` is invalid local input.
+pub type Judge<'a> = &'a dyn Fn(&Cycle) -> Result<Report, InvalidInput>;
 
 /// What an event made the monitor do, beside its state.
 #[derive(Default)]
@@ -93,6 +98,13 @@ impl Monitor {
 
     /// Takes one event, or decides one cycle.
     pub fn step(&mut self, event: Event) -> Answer {
+        let reading = self.reading;
+        self.step_judged(event, &|cycle| check(cycle, reading))
+    }
+
+    /// As [`Self::step`], with another judge in place of the stages: an exploration asks what follows from
+    /// any verdict.
+    pub fn step_judged(&mut self, event: Event, judge: Judge<'_>) -> Answer {
         use requester::EventKind as Protocol;
         let Event { t_ns, kind } = event;
         let mut decision = None;
@@ -117,7 +129,7 @@ impl Monitor {
                 self.trajectory(Arrival::new(t_ns, station, session, generated_ns), trajectory)
             }
             EventKind::Cycle { measured } => {
-                let (decided, done) = self.cycle(t_ns, *measured);
+                let (decided, done) = self.cycle(t_ns, *measured, judge);
                 decision = Some(decided);
                 done
             }

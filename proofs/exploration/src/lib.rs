@@ -8,6 +8,7 @@
 //! * `properties`, `observer`: what has to hold, judged from outside.
 //! * `search`, `lasso`, `runs`: the exact search, and the search for endless runs.
 //! * `replay`: traces walked with real numbers and times; `words`: states and moves in words.
+//! * `monitor`: the monitor, whose cycles an adversary decides.
 //! * `run`: a world explored, with the verdict of every property.
 
 pub mod automaton;
@@ -16,6 +17,7 @@ pub mod cav;
 mod fit;
 mod flight;
 pub mod lasso;
+pub mod monitor;
 pub mod moves;
 pub mod observer;
 mod possible;

@@ -23,6 +23,8 @@ macro_rules! named {
     };
 }
 
+pub(crate) use named;
+
 named! {
     /// A property that holds in every reachable state or in every endless run.
     Property {

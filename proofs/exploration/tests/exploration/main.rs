@@ -12,6 +12,7 @@
 //! * PROTO-11
 
 mod likeness;
+mod monitor;
 
 use std::collections::BTreeSet;
 
