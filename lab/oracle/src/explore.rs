@@ -4,6 +4,7 @@
 pub mod chart;
 pub mod evidence;
 pub mod findings;
+pub mod monitor;
 pub mod report;
 pub mod vector;
 
@@ -96,9 +97,19 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
             }
         }
         writeln!(out, "{}, {} bounds", names::profile(*profile), settings.bounds.name())?;
-        let report = ExplorationReport::new(*profile, settings.bounds, &outcomes);
-        writeln!(out, "{}", report.worlds().text(None))?;
-        writeln!(out, "{}", report.properties().text(Some(WIDTH)))?;
+        let asks_monitor = settings.world.as_deref().is_none_or(|it| it == monitor::NAME);
+        let laws = if asks_monitor { monitor::laws(*profile) } else { Vec::new() };
+        if laws.iter().any(|it| !it.holds) {
+            end = end.max(End::Fails);
+        }
+        let report = ExplorationReport::new(*profile, settings.bounds, &outcomes, laws);
+        if !worlds.is_empty() {
+            writeln!(out, "{}", report.worlds().text(None))?;
+            writeln!(out, "{}", report.properties().text(Some(WIDTH)))?;
+        }
+        if asks_monitor {
+            writeln!(out, "{}", monitor::table(&report.monitor).text(Some(WIDTH)))?;
+        }
         end = end.max(judge(*profile, &outcomes));
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
@@ -161,8 +172,8 @@ fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Ve
     let all = bounds.worlds();
     let found: Vec<_> =
         all.iter().filter(|world| name.is_none_or(|name| name == world.name)).collect();
-    if found.is_empty() {
-        let names: Vec<_> = all.iter().map(|world| world.name).collect();
+    if found.is_empty() && name != Some(monitor::NAME) {
+        let names: Vec<_> = all.iter().map(|world| world.name).chain([monitor::NAME]).collect();
         complain(
             err,
             &format!("{}: no such world; there are {}", name.unwrap_or_default(), names.join(", ")),

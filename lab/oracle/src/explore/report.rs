@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::evidence::{self, grouped, wide};
+use super::monitor::{self, LawRow};
 use crate::rows::{Column, Rows, number, text};
 use mufasa_records::names;
 
@@ -22,6 +23,8 @@ pub struct ExplorationReport {
     pub worlds: Vec<WorldRow>,
     /// The properties over all these worlds.
     pub properties: Vec<PropertyRow>,
+    /// The laws of the monitor; empty where one world alone was asked for.
+    pub monitor: Vec<LawRow>,
 }
 
 /// A world with its sizes.
@@ -70,8 +73,14 @@ pub struct PropertyRow {
 
 impl ExplorationReport {
     /// Of what was explored in a profile.
-    pub fn new(profile: Profile, bounds: Bounds, outcomes: &[WorldOutcome]) -> Self {
+    pub fn new(
+        profile: Profile,
+        bounds: Bounds,
+        outcomes: &[WorldOutcome],
+        monitor: Vec<LawRow>,
+    ) -> Self {
         Self {
+            monitor,
             profile: names::profile(profile),
             bounds: bounds.name(),
             worlds: outcomes.iter().map(WorldRow::new).collect(),
@@ -85,8 +94,9 @@ impl ExplorationReport {
     /// The tables as Markdown.
     pub fn markdown(&self) -> String {
         let Self { profile, bounds, .. } = self;
-        let [worlds, properties] = [self.worlds(), self.properties()].map(|it| it.markdown());
-        format!("### {profile} profile, {bounds} bounds\n\n{worlds}\n{properties}\n")
+        let tables = [self.worlds(), self.properties(), monitor::table(&self.monitor)];
+        let [worlds, properties, monitor] = tables.map(|it| it.markdown());
+        format!("### {profile} profile, {bounds} bounds\n\n{worlds}\n{properties}\n{monitor}\n")
     }
 
     /// The worlds with their sizes.

@@ -45,7 +45,8 @@ fn the_tables_of_the_page_are_those_of_a_run() {
             "{name}: mufasa explore --into docs/exploration.md"
         );
     }
-    let today = ExplorationReport::new(Profile::PAPER, Bounds::Small, &honest()).markdown();
+    let today =
+        ExplorationReport::new(Profile::PAPER, Bounds::Small, &honest(), Vec::new()).markdown();
     // Up to the depth; what follows depends on the machine.
     let sizes = |text: &str| -> Vec<String> {
         rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()

@@ -13,7 +13,7 @@ mod observer;
 mod period;
 
 use indexmap::IndexMap;
-use mufasa_model::input::profile::Profile;
+use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::offloading::requester::Group;
 use rustc_hash::FxBuildHasher;
 
@@ -39,6 +39,26 @@ pub struct MonitorOutcome {
     pub seen: Vec<(Scene, usize)>,
     /// The most periods until something comes out again, from any state, without faults.
     pub back_within: usize,
+}
+
+impl MonitorOutcome {
+    /// A shortest way to a step that breaks the law.
+    pub fn way_to(&self, law: Law) -> Option<&[Period]> {
+        let broken = self.broken.iter().find(|(broken, _)| *broken == law);
+        broken.map(|(_, way)| way.as_slice())
+    }
+
+    /// The scenes that a law speaks of in this profile.
+    pub fn expected(&self, law: Law) -> impl Iterator<Item = Scene> {
+        let brakes = self.profile.has(HardenedRule::H14);
+        let is_expected = move |scene: &Scene| brakes || *scene != Scene::BrakeByPasses;
+        Scene::ALL.into_iter().filter(move |it| it.laws().contains(&law)).filter(is_expected)
+    }
+
+    /// Whether every scene was seen that the law speaks of.
+    pub fn shows(&self, law: Law) -> bool {
+        self.expected(law).all(|scene| self.seen.iter().any(|(seen, _)| *seen == scene))
+    }
 }
 
 /// The states, each with its parent and the period between them.

@@ -35,36 +35,59 @@ named! {
 named! {
     /// A step that a law speaks of, and that has to be reached.
     Scene {
-        /// Of `NothingOutOfUnsafe`.
+        /// The stages say unsafe.
         UnsafeWithCurrent = "unsafe cycle with a current element",
-        /// Of `NothingOutOfUnsafe`.
+        /// MON-45
         UnsafeForATick = "unsafe cycle without a tick",
-        /// Of `NothingBeforeHoldUntil`.
+        /// FALL-03
         ArrivesInTheWait = "an element arrives before hold_until",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-01
         ComesOut = "an element comes out",
-        /// Of `OutIsCurrentAndUsed`.
+        /// Exactly `max_age`.
         OldestComesOut = "an element as old as max_age comes out",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-33, why.
         AheadComesOutLater = "an element stamped ahead comes out a period later",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-09
         OtherSessionDropped = "an element of another session is dropped",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-09
         LateDropped = "a late element is dropped",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-30
         StaleDropped = "a stale element is dropped",
-        /// Of `OutIsCurrentAndUsed`.
+        /// MON-09
         RepeatedDropped = "a repeated element is dropped",
-        /// Of `AskedAgainAfterNineTimes`, `LeftInTime`.
+        /// MON-32
         StarvedDropped = "an element of a starved group is dropped",
-        /// Of `AskedAgainAfterNineTimes`.
+        /// MON-34
         NinefoldWait = "a wait after a session longer than t_wait ends with a request",
-        /// Of `AskedAgainAfterNineTimes`.
+        /// MON-36
         UseShortensTheWait = "a session of long use ends and leaves no wait",
-        /// Of `BrakeByMovesOn`.
+        /// MON-42
         BrakeByPasses = "brake_by passes while the group is remote",
-        /// Of `OffloadingComesBack`.
+        /// From a fallback.
         ComesBack = "an element comes out after a fallback",
+    }
+}
+
+impl Scene {
+    /// The laws that it shows not to be empty.
+    pub fn laws(self) -> &'static [Law] {
+        match self {
+            Self::UnsafeWithCurrent | Self::UnsafeForATick => &[Law::NothingOutOfUnsafe],
+            Self::ArrivesInTheWait => &[Law::NothingBeforeHoldUntil],
+            Self::ComesOut => {
+                &[Law::OutIsCurrentAndUsed, Law::VerifiedComesOut, Law::BrakeByMovesOn]
+            }
+            Self::OldestComesOut
+            | Self::AheadComesOutLater
+            | Self::OtherSessionDropped
+            | Self::LateDropped
+            | Self::StaleDropped
+            | Self::RepeatedDropped => &[Law::OutIsCurrentAndUsed],
+            Self::StarvedDropped => &[Law::AskedAgainAfterNineTimes, Law::LeftInTime],
+            Self::NinefoldWait | Self::UseShortensTheWait => &[Law::AskedAgainAfterNineTimes],
+            Self::BrakeByPasses => &[Law::BrakeByMovesOn],
+            Self::ComesBack => &[Law::OffloadingComesBack],
+        }
     }
 }
 
@@ -121,7 +144,7 @@ struct Seen {
 }
 
 /// Beyond this a session was of use for long enough to leave no wait.
-const LONG: i8 = 10 * LONGEST as i8;
+const LONG: i64 = 10 * LONGEST;
 
 impl Observer {
     /// What decides how it goes on: the number of a session is only compared with itself.
@@ -263,7 +286,7 @@ impl Observer {
         if let Some(seen) = &mut self.session {
             seen.element = seen.element.map(|age| (age + 1).min(fitted(MAX_AGE + 1)));
             seen.without += 1;
-            seen.first = seen.first.map(|it| (it + 1).min(LONG));
+            seen.first = seen.first.map(|it| (it + 1).min(fitted(LONG)));
             shown.breaks(Law::LeftInTime, i64::from(seen.without) > LONGEST);
         }
     }

@@ -44,6 +44,7 @@ pub enum Sent {
 
 /// What happens in a period: the station answers a request and sends, a tick, and a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "four things that happen or do not")]
 pub struct Period {
     /// Whether the station takes its offer back, and offers again at once.
     pub withdraws: bool,
