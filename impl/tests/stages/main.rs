@@ -8,15 +8,9 @@
 mod cells;
 mod disputed;
 mod extremes;
-mod fail_safe;
 mod history;
-mod inner;
 mod input;
-mod keeps_beside;
 mod motions;
 mod profiles;
 mod scene;
 mod slide;
-mod step_turn;
-mod steps;
-mod thresholds;

@@ -174,12 +174,6 @@ impl Scene {
         })
     }
 
-    /// Stage and rule of the failure with so much work, if any.
-    pub fn failure_with_work(&mut self, work_limit: i64) -> Option<(Stage, Rule)> {
-        self.parameters.work_limit = work_limit;
-        self.failure().map(|(stage, it)| (stage, it.rule))
-    }
-
     /// The rule that failed, if any.
     pub fn rule(&self) -> Option<Rule> {
         self.failure().map(|(_, witness)| witness.rule)

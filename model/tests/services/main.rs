@@ -1,7 +1,6 @@
-//! One test per requirement of `spec/1-services.md`, named after its sentence.
+//! `spec/1-services.md`: compositions against all choices, and what no vector shows.
 
 mod brute_force;
-mod compositions;
 mod configurations;
 mod figure_2;
 mod random_sets;

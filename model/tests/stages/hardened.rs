@@ -4,4 +4,3 @@ mod fail_safe;
 mod history;
 mod left_out;
 mod start;
-mod steps;

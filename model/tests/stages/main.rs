@@ -1,4 +1,4 @@
-//! What the vectors of `vectors/` do not say of the model (`lab/conform/tests/vectors` holds it to them): the
+//! What the vectors of `vectors/` do not say of the model (`props/tests/vectors.rs` holds it to them): the
 //! readings margin by margin, decisions against decisions made otherwise, properties of all cycles.
 
 mod arithmetic;

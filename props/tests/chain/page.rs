@@ -84,7 +84,7 @@ pub fn write(rows: &[Row], reasons: &Reasons) -> String {
          From the paper to the code and what is known of it, by `UPDATE_CHAIN=1 cargo test -p mufasa-props --test chain` \
          from what the sources say: headings and rules in comments, requirements of vectors, claims and the changes \
          that refute them. A test fails when this page is old, or a place is missing without a reason.\n\n\
-         [One test](../lab/conform/tests/vectors/mod.rs) holds model and implementation to every vector. \
+         [One test](../props/tests/vectors.rs) holds model and implementation to every vector. \
          `law` has the laws of `proofs/src/law` and the properties of the exploration. What is a claim and what is only \
          tested: [proofs.md](proofs.md).\n\n\
          ## By the paper\n\n| paper | here |\n|---|---|\n",

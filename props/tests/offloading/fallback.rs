@@ -1,16 +1,13 @@
 //! `spec/2-offloading.md#fallback`. Default: `t_wait` 10 s.
 
-use mufasa_model::offloading::requester::Action::{Activate, Deactivate, Drop};
+use mufasa_model::offloading::requester::Action::Deactivate;
 use mufasa_model::offloading::requester::Group::{Mot, Plan};
 use mufasa_model::offloading::requester::GroupState::Local;
 use mufasa_model::offloading::requester::{EventKind, Groups};
 use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Stage};
 use mufasa_model::services::configuration::Source;
 
-use crate::{
-    Cav, MOT, PLAN, PROFILES, Profile, SESSION_1, TICK, UNSAFE, confirm, data, offer, on, release,
-    request, safe,
-};
+use crate::{Cav, MOT, PLAN, PROFILES, Profile, SESSION_1, TICK, confirm, data, offer, on, safe};
 
 const T_WAIT_NS: i64 = 10_000_000_000;
 
@@ -27,20 +24,6 @@ fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used
             assert_eq!(cav.model().hold_until_ns(), Some(1 + T_WAIT_NS));
         }
     }
-}
-
-/// FALL-08
-#[test]
-fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
-    let mut cav = Cav::paper();
-    cav.at(0, offer(1, Groups::ALL));
-    cav.at(100, UNSAFE);
-    for t_ns in [100, 100, 50, -1, i64::MIN, 100, 99 + T_WAIT_NS] {
-        assert_eq!(cav.at(t_ns, TICK), []);
-        assert_eq!(cav.model().hold_until_ns(), Some(100 + T_WAIT_NS));
-    }
-    cav.at(i64::MIN, UNSAFE);
-    assert_eq!(cav.model().hold_until_ns(), Some(100 + T_WAIT_NS));
 }
 
 /// FALL-11
@@ -62,31 +45,6 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     }
 }
 
-/// FALL-12, FALL-13: PLAN is overdue, MOT silent, and the order is by kind first.
-#[test]
-fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_plan_within_each() {
-    let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
-    cav.at(0, confirm(1, Mot, 1));
-    let tick = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot)];
-    assert_eq!(cav.at(500_000_000, TICK), tick);
-
-    let mut cav = Cav::remote(Profile::HARDENED, Groups::ALL);
-    cav.at(1, data(1, Plan, 2, 1));
-    cav.at(1, data(1, Mot, 1, 1));
-    assert_eq!(cav.at(2, safe(Some(1), Some(2))), [Deactivate(Mot), Deactivate(Plan)]);
-    let early = [Drop(Plan), release(1, Plan, 2), Activate(Plan)];
-    assert_eq!(cav.at(3, data(1, Plan, 2, 4)), early);
-
-    let mut cav = Cav::remote(Profile::PAPER, Groups::ALL);
-    let all = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot), Activate(Plan)];
-    assert_eq!(cav.at(3, UNSAFE), all);
-
-    let mut cav = Cav::remote(Profile::PAPER, MOT);
-    cav.at(1, offer(1, Groups::ALL));
-    let tick = [release(1, Mot, 1), Activate(Mot), request(1, Plan, 2)];
-    assert_eq!(cav.at(100_000_001, TICK), tick);
-}
-
 /// PROTO-08 (H-08)
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
@@ -106,12 +64,4 @@ fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_
     cav.at(6, data(1, Mot, 2, 6));
     assert_eq!(cav.at(6, safe(Some(1), None)), [], "a verdict on an earlier session (F-25)");
     assert_eq!(cav.at(6, safe(Some(2), None)), [Deactivate(Mot)]);
-}
-
-/// `spec/5-interfaces.md#offloading-trace`: `safe` matters only for H-08.
-#[test]
-fn a_safe_verdict_changes_nothing_in_the_paper_profile() {
-    let mut cav = Cav::remote(Profile::PAPER, Groups::ALL);
-    cav.at(1, data(1, Mot, 1, 1));
-    cav.ignores(2, safe(Some(1), Some(2)));
 }

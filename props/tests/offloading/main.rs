@@ -1,11 +1,10 @@
-//! One test per requirement of `spec/2-offloading.md`, named after its sentence, of the requesters of
-//! model and implementation together: after each step everything that either remembers is compared.
+//! What no vector of `spec/2-offloading.md` shows (`props/tests/vectors.rs`), of the requesters of model and
+//! implementation together: after each step everything that either remembers is compared.
 
 mod deadlines;
 mod fallback;
 mod provider;
 mod quality_of_service;
-mod requester;
 mod traces;
 
 use mufasa_model::input::cycle::Profile;
@@ -18,7 +17,6 @@ use mufasa_props::refine::Pair;
 const MOT: Groups = Groups { mot: true, plan: false };
 const PLAN: Groups = Groups { mot: false, plan: true };
 const TICK: EventKind = EventKind::Tick;
-const UNSAFE: EventKind = EventKind::Verdict { safe: false, sessions: Sessions::NONE };
 /// Session 1 runs MOT.
 const SESSION_1: Sessions = Sessions { mot: Some(1), plan: None };
 const PROFILES: [Profile; 2] = [Profile::PAPER, Profile::HARDENED];
@@ -83,24 +81,8 @@ fn offer(station: i64, groups: Groups) -> EventKind {
     EventKind::Offer { station, groups }
 }
 
-fn withdraw(station: i64) -> EventKind {
-    EventKind::Withdraw { station }
-}
-
-fn lost(station: i64) -> EventKind {
-    EventKind::Lost { station }
-}
-
-fn area(groups: Groups) -> EventKind {
-    EventKind::Area { groups }
-}
-
 fn confirm(station: i64, group: Group, session: i64) -> EventKind {
     EventKind::Confirm { station, group, session }
-}
-
-fn reject(station: i64, group: Group, session: i64) -> EventKind {
-    EventKind::Reject { station, group, session }
 }
 
 fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKind {
@@ -109,10 +91,6 @@ fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKin
 
 fn safe(mot: Option<i64>, plan: Option<i64>) -> EventKind {
     EventKind::Verdict { safe: true, sessions: Sessions { mot, plan } }
-}
-
-fn request(station: i64, group: Group, session: i64) -> Action {
-    Action::Request { station, group, session }
 }
 
 fn release(station: i64, group: Group, session: i64) -> Action {

@@ -1,13 +1,10 @@
-//! The implementation conforms on every vector.
+//! A trace, by the implementation and by the model. That both agree with every vector is asked in
+//! `props/tests/vectors.rs`.
 
 use mufasa::offloading::requester as twin;
-use mufasa_model::cycle::check;
 use mufasa_model::offloading::requester::{Action, Event, GroupState};
-use mufasa_model::report::Reading;
 use mufasa_props::bridge;
-use mufasa_records::{Record, Trace};
-
-use crate::vectors::{all, record};
+use mufasa_records::Trace;
 
 /// Places of the implementation's station table; no trace names more stations.
 const STATIONS: usize = 16;
@@ -43,30 +40,4 @@ pub fn exact(trace: &Trace) -> Vec<Step> {
         (Group::ALL.map(|group| requester.state(group)), requester.hold_until_ns(), actions)
     };
     trace.events.iter().map(step).collect()
-}
-
-#[test]
-fn the_implementation_conforms_on_every_vector() {
-    let mut count = [0; 2];
-    for vector in all() {
-        match record(vector) {
-            Some(Record::Cycle { cycle, .. }) => {
-                let [exact, strict] =
-                    [Reading::Exact, Reading::Strict].map(|reading| check(&cycle, reading));
-                let found = bridge::check_impl(&cycle);
-                if let Err(disagreement) = bridge::conforms(&exact, &strict, &found) {
-                    panic!("{}: {disagreement}", vector.id);
-                }
-                count[0] += 1;
-            }
-            Some(Record::Offloading { trace, .. }) => {
-                assert_eq!(run(&trace, |event| Some(*event)), exact(&trace), "{}", vector.id);
-                count[1] += 1;
-            }
-            // The implementation has no services: the orchestrator is the model's.
-            // Of the monitor `props` compares model and implementation.
-            Some(Record::Composition { .. } | Record::Monitor { .. }) | None => {}
-        }
-    }
-    assert!(count[0] > 1_300 && count[1] > 100, "{count:?}");
 }

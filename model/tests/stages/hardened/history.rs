@@ -2,14 +2,12 @@
 //! is too close to call.
 
 use mufasa_model::cycle::check;
-use mufasa_model::hardened::detection_history::{
-    Seen, confirmed, nearest_to_reference, seen, usable,
-};
+use mufasa_model::hardened::detection_history::{Seen, seen};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
 use mufasa_model::input::scene::Scene;
-use mufasa_model::numbers::real::Real;
+
 use mufasa_model::report::{Reading, Rule, Stage};
-use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
 
 use crate::base::*;
 use crate::near::*;
@@ -58,75 +56,6 @@ fn driving(lists: &[i64]) -> Cycle {
     cycle(vec![track], vec![detection(20.0, 0.0), detection(60.0, 0.0)], &lists)
 }
 
-/// SEEN-01: both ends of the ages are usable.
-#[test]
-fn lists_of_200_ms_to_1_s_are_usable() {
-    let ages = |cycle: &Cycle| -> Vec<i128> {
-        usable(&scene(cycle)).iter().map(|list| list.age_ns).collect()
-    };
-    let mut cycle = driving(&[0, 200, 500, 1000]);
-    assert_eq!(ages(&cycle), [200_000_000, 500_000_000, 1_000_000_000]);
-    cycle.detection_history[1].stamp_ns += 1;
-    cycle.detection_history[3].stamp_ns -= 1;
-    assert_eq!(ages(&cycle), [500_000_000]);
-    // Ages count from the stamp of the detections, wherever that is.
-    cycle.detections.as_mut().expect("set").stamp_ns -= 50_000_000;
-    assert_eq!(ages(&cycle), [450_000_000, 950_000_001]);
-    let mut without = driving(&[500]);
-    without.detections = None;
-    assert_eq!(ages(&without), []);
-    // A list in the future of the detections is no error.
-    cycle.detection_history = vec![DetectionList { stamp_ns: NOW + 1, items: Vec::new() }];
-    assert_eq!(ages(&cycle), []);
-    let mut later = driving(&[500]);
-    later.detection_history[0].stamp_ns = NOW + 1;
-    assert_eq!((ages(&later), failed(&later)), (vec![], None));
-}
-
-/// A list older than 60 s counts as missing, though 500 ms older than current detections.
-#[test]
-fn a_list_older_than_60_s_is_missing() {
-    let mut cycle = driving(&[0]);
-    cycle.parameters.max_age_ns = 60_000_000_000;
-    cycle.detections.as_mut().expect("set").stamp_ns = NOW - 59_500_000_000;
-    cycle.detection_history[0].stamp_ns = NOW - 60_000_000_000;
-    assert_eq!(usable(&scene(&cycle)).len(), 1);
-    cycle.detection_history[0].stamp_ns -= 1;
-    assert_eq!(usable(&scene(&cycle)).len(), 0);
-}
-
-/// SEEN-02.
-#[test]
-fn the_reference_list_is_nearest_to_500_ms_and_the_younger_of_two() {
-    let reference = |ages: &[i64]| {
-        let cycle = driving(ages);
-        let scene = scene(&cycle);
-        let lists = usable(&scene);
-        nearest_to_reference(lists.iter().enumerate()).map(|(_, list)| list.age_ns / 1_000_000)
-    };
-    assert_eq!(reference(&[250, 480, 530, 900]), Some(480));
-    assert_eq!(reference(&[250, 450, 549, 900]), Some(549));
-    assert_eq!(reference(&[400, 600]), Some(400));
-    assert_eq!(reference(&[400, 599]), Some(599));
-    assert_eq!(reference(&[100, 1001]), None);
-}
-
-/// place = p + v (t_D - t_T), of either sign.
-/// SEEN-04.
-#[test]
-fn the_place_is_where_the_track_is_when_the_cav_detects() {
-    let place = |track_ns: i64| {
-        let mut cycle = driving(&[]);
-        cycle.tracks.as_mut().expect("set").stamp_ns += track_ns;
-        all_seen(&cycle)[0].place.x.clone()
-    };
-    assert_eq!([-500_000_000, 0, 250_000_000].map(place), [24, 20, 18].map(Real::from_integer));
-    let mut blind = driving(&[]);
-    blind.detections = None;
-    blind.tracks.as_mut().expect("set").stamp_ns -= 500_000_000;
-    assert_eq!(all_seen(&blind)[0].place.x, Real::from_integer(20), "p without current detections");
-}
-
 /// Backed: own origins in two usable lists, each at distance <= 1 + 2 dt.
 /// SEEN-05, SEEN-06, SEEN-08.
 #[test]
@@ -153,57 +82,6 @@ fn a_track_is_backed_by_its_own_origins_in_two_lists() {
         assert_eq!(is_ambiguous(&moved(y)), expected, "{y}");
     }
     assert!(!is_ambiguous(&moved(2.0 + 3e-6)));
-}
-
-/// An origin that another received track has, too, is nobody's own: also of one far outside the gate.
-/// SEEN-07.
-#[test]
-fn an_origin_of_two_tracks_is_no_ones_own() {
-    let mut cycle = driving(&[250, 500, 750]);
-    assert!(all_seen(&cycle)[0].is_backed);
-    // At (200, 0), and so fast that it came from the same place 500 ms ago.
-    let far = |vx: f64| Track { vx, ..track(2, 80.0, 0.0) };
-    cycle.tracks.as_mut().expect("set").items.push(far(128.0));
-    let of_two = all_seen(&cycle);
-    assert_eq!(of_two[0].own_origins, [Some(0), None, Some(0)]);
-    assert!(of_two[0].is_backed, "two of three are left");
-    cycle.detection_history.remove(2);
-    assert!(!all_seen(&cycle)[0].is_backed);
-}
-
-/// The first of several at the same distance is the origin, and two items at one position are one.
-/// SEEN-06.
-#[test]
-fn the_first_of_the_nearest_items_is_the_origin() {
-    let with = |items: [(f64, f64); 2]| {
-        let mut cycle = driving(&[250, 500]);
-        cycle.detection_history[1].items = items.map(|(x, y)| detection(x, y)).into();
-        cycle
-    };
-    assert_eq!(all_seen(&with([(16.0, 1.0), (16.0, -1.0)]))[0].own_origins[1], Some(0));
-    assert_eq!(all_seen(&with([(16.0, 1.0), (16.0, 0.5)]))[0].own_origins[1], Some(1));
-    assert!(is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0)])), "as near, at another place");
-    assert!(is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0 - 0.9e-6)])));
-    assert!(!is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0 - 1.1e-6)])));
-    assert!(!is_ambiguous(&with([(16.0, 1.0), (16.0, 1.0)])), "the same position");
-    assert!(is_ambiguous(&with([(16.0, 2.0 + 0.9e-6), (16.0, -2.0 - 1.5e-6)])));
-    assert!(!is_ambiguous(&with([(16.0, 2.1), (16.0, -2.1)])), "beyond the bound");
-    assert!(!is_ambiguous(&with([(16.0, 2.0 + 1.5e-6), (16.0, -2.0 - 1.5e-6)])), "by 1.5 delta");
-}
-
-/// `v_object` is included.
-/// SEEN-08.
-#[test]
-fn a_backed_track_is_at_most_as_fast_as_v_object() {
-    let with = |v_object: f64| {
-        let mut cycle = driving(&[250, 500]);
-        cycle.parameters.v_object = v_object;
-        cycle
-    };
-    assert!(all_seen(&with(8.0))[0].is_backed);
-    assert!(!all_seen(&with(8.0f64.next_down()))[0].is_backed);
-    assert!(is_ambiguous(&with(8.0 - 0.9e-6)) && is_ambiguous(&with(8.0 + 0.9e-6)));
-    assert!(!is_ambiguous(&with(8.0 - 1.1e-6)) && !is_ambiguous(&with(8.0 + 1.1e-6)));
 }
 
 /// The detection of a track is nearer than theta_track_max, and a confirmed one has it for itself.
@@ -268,25 +146,6 @@ fn the_bound_of_sideways_motion_is_included() {
     assert!(all_seen(&cycle)[0].is_confirmed);
     cycle.parameters.theta_velocity = 3.25f64.next_down();
     assert!(!all_seen(&cycle)[0].is_confirmed);
-}
-
-/// Confirmed are tracks of a current list, in PlanRemote the CAV's own.
-/// SEEN-03, SEEN-13.
-#[test]
-fn only_current_tracks_confirm() {
-    let count = |cycle: &Cycle| confirmed(&scene(cycle)).len();
-    let mut cycle = driving(&[250, 500]);
-    assert_eq!(count(&cycle), 1);
-    for configuration in [AllRemote, PlanRemote, MotRemote] {
-        cycle.configuration = configuration;
-        assert_eq!(count(&cycle), 1, "{configuration:?}");
-    }
-    cycle.parameters.max_age_ns -= 1;
-    cycle.tracks.as_mut().expect("set").stamp_ns -= 100_000_000;
-    cycle.tracks.as_mut().expect("set").items[0].x -= 0.8;
-    assert_eq!(count(&cycle), 0);
-    cycle.parameters.max_age_ns += 1;
-    assert_eq!(count(&cycle), 1);
 }
 
 /// MARGIN-10, MARGIN-11: the strict reading asks only when stage i runs, and of every received track.

@@ -1,11 +1,10 @@
 //! H-01: which tracks may be left out, and what remains.
 
-use mufasa_model::input::cycle::{Cycle, Profile, Track};
+use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{Rule, Stage};
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use crate::base::*;
-use crate::near::*;
 
 /// Stage i alone: tracks that stand at (x, y), detections there, and what the CAV saw before of
 /// `backed`.
@@ -24,20 +23,6 @@ const FAR: [f64; 2] = [90.0, 0.0];
 const A: [f64; 2] = [20.0, 5.0];
 const B: [f64; 2] = [40.0, 5.0];
 
-/// H-01.3.
-#[test]
-fn a_backed_track_without_a_detection_may_be_left_out() {
-    let one = |backed: &[[f64; 2]], budget: i64| {
-        let mut cycle = cycle(&[A, B], &[A, FAR], backed);
-        cycle.parameters.miss_budget = budget;
-        rule(&cycle, Stage::I)
-    };
-    assert_eq!(one(&[B], 4), None);
-    assert_eq!(one(&[A], 4), Some(Rule::NoAssignment), "the other one is backed");
-    assert_eq!(one(&[B], 0), Some(Rule::NoAssignment));
-    assert_eq!(one(&[], 4), Some(Rule::NoAssignment));
-}
-
 /// H-01.2.
 #[test]
 fn at_most_miss_budget_tracks_are_left_out() {
@@ -49,19 +34,6 @@ fn at_most_miss_budget_tracks_are_left_out() {
     };
     assert_eq!(with(3), None);
     assert_eq!(with(2), Some(Rule::NoAssignment));
-}
-
-#[test]
-fn nothing_that_remains_passes() {
-    let mut cycle = cycle(&[A, B], &[FAR], &[A, B]);
-    assert_eq!(rule(&cycle, Stage::I), None);
-    cycle.parameters.theta_tr = 1e-3;
-    cycle.parameters.delta = 1e-2;
-    assert_eq!(safe(&cycle), YES, "no mean is compared");
-    cycle.parameters.miss_budget = 1;
-    assert_eq!(rule(&cycle, Stage::I), Some(Rule::NoAssignment));
-    cycle.tracks.as_mut().expect("set").items.clear();
-    assert_eq!(safe(&cycle), YES);
 }
 
 /// The mean is that of what remains: a track left out makes it neither better nor worse.
@@ -89,45 +61,4 @@ fn the_mean_is_that_of_what_remains() {
     assert_eq!(backed_off(0, 0.149), Some(Rule::MeanCost));
     assert_eq!(backed_off(1, 0.149), None);
     assert_eq!(backed_off(1, 0.001), None, "B alone is exact");
-}
-
-/// Mean and closeness move by the margin, also beside a track that is left out.
-#[test]
-fn margins_move_what_remains() {
-    margins_move(&[
-        ("mean of what remains < theta_tr - m", MotRemote, Profile::HARDENED, |c, e| {
-            *c = cycle(&[A, B], &[[20.0, 5.2 + e], FAR], &[B]);
-        }),
-        (
-            "closeness of what remains < theta_track_max - m",
-            MotRemote,
-            Profile::HARDENED,
-            |c, e| {
-                *c = cycle(&[A, B], &[[20.0, 6.0 + e], FAR], &[B]);
-                c.parameters.theta_tr = 100.0;
-            },
-        ),
-    ]);
-}
-
-/// H-01.1: gate and assignment are at the places: the lists need not be of one time.
-#[test]
-fn tracks_are_compared_at_their_places() {
-    let mut cycle = cycle(&[], &[[60.0, 0.0], FAR], &[]);
-    let late = Track { vx: 20.0, ..track(1, 59.0, 0.0) };
-    cycle.tracks = tracks(vec![late]);
-    cycle.tracks.as_mut().expect("set").stamp_ns -= 50_000_000;
-    assert_eq!(rule(&cycle, Stage::I), None, "59 + 20 * 0.05 = 60");
-    cycle.profile = Profile::PAPER;
-    assert_eq!(rule(&cycle, Stage::I), Some(Rule::MeanCost));
-    // Outside the field of view at its stamp, inside at its place, and the other way round.
-    let gate = |x: f64, vx: f64| {
-        let mut cycle = cycle.clone();
-        cycle.profile = Profile::HARDENED;
-        let ghost = Track { vx, ..track(2, x, 0.0) };
-        cycle.tracks.as_mut().expect("set").items.push(ghost);
-        rule(&cycle, Stage::I)
-    };
-    assert_eq!(gate(92.0, -60.0), Some(Rule::NoAssignment));
-    assert_eq!(gate(88.0, 60.0), None);
 }

@@ -6,10 +6,10 @@ use mufasa_model::hardened::h14_fail_safe::meeting::{
 };
 use mufasa_model::hardened::h14_fail_safe::motions::all_motions;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
-use mufasa_model::report::{Reading, Stage};
+use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
-use super::{alone, found, scene};
+use super::{alone, scene};
 use crate::base::*;
 use crate::near::points;
 
@@ -74,28 +74,6 @@ fn who_follows_is_behind_and_comes_along() {
     moves("to the right", |e| is_follower(&far(8.0, -8.0 - e), true));
     assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), true), [true; 3]);
     assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), false), [false; 3]);
-}
-
-/// All of its rectangle where it is now, as it looks; the rear is that of the rectangle of the CAV.
-/// H-14.29.
-#[test]
-fn behind_is_behind_the_rear() {
-    let with = |x: f64, change: &dyn Fn(&mut Cycle)| {
-        let mut cycle = cycle(Track { vx: 20.0, width: 3.0, ..track(1, x, 0.0) });
-        change(&mut cycle);
-        is_follower(&cycle, true)[1]
-    };
-    assert!(with((-4.0f64).next_down(), &|_| ()) && !with(-4.0, &|_| ()));
-    // Seen 50 ms ago it is a metre farther now.
-    let old = |c: &mut Cycle| c.tracks.as_mut().expect("set").stamp_ns -= 50_000_000;
-    assert!(with(-5.01, &old) && !with(-4.99, &old));
-    let turned = |c: &mut Cycle| {
-        let item = &mut c.tracks.as_mut().expect("set").items[0];
-        (item.cos, item.sin) = (0.0, -1.0);
-    };
-    assert!(with(-3.51, &turned) && !with(-3.49, &turned));
-    let shifted = |c: &mut Cycle| c.ego.center_offset = 1.0;
-    assert!(with(-3.01, &shifted) && !with(-2.99, &shifted));
 }
 
 /// What is b inside of the CAV's sides and rear and 0.3 m inside of its front is met by who goes on; not by who
@@ -164,34 +142,6 @@ fn who_keeps_beside_is_beside_the_path() {
     assert_eq!([ahead(0.0), ahead(10.0)], [[true; 3], [false; 3]]);
 }
 
-/// Farther away it is on another road.
-/// H-14.37.
-#[test]
-fn who_keeps_beside_is_near_the_route() {
-    for side in [1.0, -1.0] {
-        moves("D <= 20 m - m", |e| keeps_beside(&beside(0.0, side * (20.0 + e), -8.0, 0.0)));
-    }
-}
-
-/// It is 34.4 m long and backs along a leg that ends 18 m behind the CAV, so far to the left of it that it ends at the
-/// CAV's rear, to the left; its side is 9.4 m from the leg.
-/// H-14.38.
-#[test]
-fn who_lies_across_the_way_does_not_keep_beside() {
-    let with = |longer: f64, x: f64| {
-        let length = 34.4 + 2.0 * longer;
-        let it = track(1, -15.76, 11.32);
-        let mut cycle = cycle(Track { vx: -8.0, vy: 6.0, cos: 0.8, sin: -0.6, length, ..it });
-        let at = |[x, y]: [f64; 2]| CrossSection { x, y, left: [x, y + 9.0], right: [x, y - 9.0] };
-        cycle.route.cross_sections = [[-98.0, 60.0], [-18.0, 0.0], [100.0, 0.0]].map(at).into();
-        cycle.ego.x = x;
-        points(&mut cycle).iter_mut().for_each(|point| point.x += x);
-        keeps_beside(&cycle)
-    };
-    moves("it touches the CAV", |e| with(e, 0.0));
-    assert_eq!([with(2.0, 0.0), with(2.0, 3.0)], [[false; 3], [true; 3]]);
-}
-
 /// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
 /// H-14.43.
@@ -208,27 +158,6 @@ fn who_keeps_beside_does_not_drift_into_the_path() {
         keeps_beside(&beside(-10.0, 4.0, 8.0, -(8.0 / 99f64.sqrt() + e / 3.96)))
     });
     assert_eq!(keeps_beside(&beside(-10.0, 8.0, 8.0, -0.9)), [true; 3], "far enough for more");
-}
-
-/// Each place counts: the CAV drives to the lane where the other one is, or begins beside its trajectory.
-/// H-14.42.
-#[test]
-fn every_place_is_beside_its_lane() {
-    let with = |aside: f64| {
-        let mut cycle = beside(-10.0, 3.0, 8.0, 0.0);
-        for point in points(&mut cycle) {
-            point.y = (point.x / 10.0).min(1.0) * aside;
-        }
-        keeps_beside(&cycle)
-    };
-    moves("at the last place, too", |e| with(1.0 + e));
-    // p is 0.25 m aside, and every place 0.25 m wider to each side.
-    let begins_beside = |y: f64| {
-        let mut cycle = beside(-10.0, y, 8.0, 0.0);
-        cycle.ego.y = 0.25;
-        keeps_beside(&cycle)[1]
-    };
-    assert!(begins_beside(2.51) && !begins_beside(2.49));
 }
 
 /// abs(h x h_k) <= 0.05 + way / 30 m; a turned CAV is wider.
@@ -272,61 +201,4 @@ fn every_nearest_point_and_segment_is_asked() {
         keeps_beside(&cycle)[1]
     };
     assert!(corner(11.0, 2.6) && !corner(10.75, 2.6) && corner(10.75, 2.7));
-}
-
-/// Neither it nor a place lies beyond an end of an open route; a closing segment of length 0 is none.
-/// H-14.39.
-#[test]
-fn nobody_keeps_beside_beyond_the_ends_of_an_open_route() {
-    let with = |from: f64, to: f64, closed: bool| {
-        let mut cycle = beside(-10.0, 2.5, 8.0, 0.0);
-        cycle.route = straight_route(from, to);
-        cycle.route.closed = closed;
-        keeps_beside(&cycle)
-    };
-    // Dot products with a vector of about 110 m.
-    moves("it is before the first point", |e| with(-10.0 + e / 110.0, 100.0, false));
-    // The last place is at s_stop, where the lax reading has none.
-    let ending = |e: f64| with(-100.0, 10.75 - e / 110.75, false);
-    assert_eq!([ending(-2e-6), ending(-0.5e-6)], [[true; 3], [false, true, true]]);
-    assert_eq!([ending(0.5e-6), ending(2e-6)], [[false, false, true]; 2]);
-    assert_eq!([with(-9.9, 100.0, true), with(-100.0, 10.5, true)], [[true; 3]; 2]);
-    let mut round = beside(20.0, 2.5, 8.0, 0.0);
-    round.route = straight_route(0.0, 200.0);
-    round.route.closed = true;
-    let last = round.route.cross_sections[0].clone();
-    round.route.cross_sections.push(last);
-    assert_eq!(keeps_beside(&round), [true; 3]);
-}
-
-/// H-14.28: who follows or keeps beside is not examined, whoever else comes is.
-#[test]
-fn who_follows_keeps_its_own_distance() {
-    let fast = |y: f64| Track { vx: 30.0, ..track(1, -12.0, y) };
-    let meets = |track: Track| found(&cycle(track)).is_some();
-    assert!(!meets(fast(0.0)), "in the way already");
-    assert!(!meets(fast(1.9)), "it touches the side of the CAV");
-    assert!(meets(Track { vy: -4.0, ..fast(4.2) }), "it meets the CAV farther on");
-    // Beside the path it is not examined, though on a straight line it would meet the CAV.
-    let wide = |y: f64| {
-        let mut cycle = cycle(Track { vy: -2.0, ..fast(y) });
-        cycle
-            .route
-            .cross_sections
-            .iter_mut()
-            .for_each(|it| (it.left[1], it.right[1]) = (9.0, -9.0));
-        cycle
-    };
-    let with = |y: f64, slope: f64| {
-        let mut cycle = wide(y);
-        points(&mut cycle).iter_mut().for_each(|point| point.y = slope * point.x);
-        assert!(passes(&cycle, Stage::Ii));
-        found(&cycle).is_some()
-    };
-    assert!(!with(3.06, 0.0) && with(3.06, 0.1), "the CAV ends 1.075 m to the left");
-    // Who cuts in before the CAV does not touch it as that is now.
-    assert!(meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.3) }));
-    assert!(!meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.0) }));
-    // Beside the CAV it is not behind.
-    assert!(meets(Track { vx: 8.0, vy: -1.0, ..track(1, -3.9, 2.5) }));
 }

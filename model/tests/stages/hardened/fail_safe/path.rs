@@ -52,34 +52,6 @@ fn xs(cycle: &Cycle) -> Vec<f64> {
     exact(cycle).into_iter().map(|(x, ..)| x).collect()
 }
 
-/// H-14.3, H-14.5: the least number of equal parts of at most a quarter of a metre along x
-/// and along y; straight on in quarters of a metre behind the last node.
-#[test]
-fn places_are_at_most_a_quarter_of_a_metre_apart() {
-    // The last place is at s_stop, also where another one is there already.
-    let straight_on = [0.0, 0.25, 0.5, 0.75, 1.0, 1.0];
-    assert_eq!(xs(&cycle(4.0, &[along_x(0.5, 0.0), along_x(1.0, 0.0)])), straight_on);
-    assert_eq!(xs(&cycle(4.0, &[along_x(9.0, 0.0)])), straight_on);
-    assert_eq!(xs(&cycle(4.0, &[along_x(-1.0, 0.0)])), straight_on, "no node but p");
-    // A hair more than two quarters are three parts.
-    let more = 0.5f64.next_up();
-    assert_eq!(xs(&cycle(4.0, &[along_x(more, 0.0)]))[3].to_bits(), more.to_bits());
-    assert_eq!(xs(&cycle(4.0, &[along_x(0.5, 0.0)]))[2].to_bits(), 0.5f64.to_bits());
-    // Three quarters along y alone.
-    assert_eq!(
-        exact(&cycle(4.0, &[along_x(0.5, 0.75)]))[1..4],
-        [
-            (0.5 / 3.0, 0.25, 0.5 / 3.0, true),
-            (1.0 / 3.0, 0.5, 1.0 / 3.0, true),
-            (0.5, 0.75, 0.5, true),
-        ]
-    );
-    // A CAV shorter than a quarter of a metre: its length.
-    let mut short = cycle(2.0, &[along_x(0.1875, 0.0)]);
-    short.ego.length = 0.0625;
-    assert_eq!(xs(&short), [0.0, 0.0625, 0.125, 0.1875, 0.25, 0.25]);
-}
-
 /// A node has its own heading, the places before it that of the piece; behind the last one it goes on.
 /// H-14.4, H-14.5.
 #[test]
@@ -104,31 +76,6 @@ fn headings_are_those_of_the_pieces() {
         ends[3..],
         [(0.75, 0.0, 0.75, true), (0.90625, 0.0, 0.90625, true), (1.0, 0.0, 1.0, true)]
     );
-}
-
-/// The way is the sum of the advances along the heading of each node: aside and back are no way.
-/// H-14.2.
-#[test]
-fn the_way_counts_along_the_headings() {
-    let aside = exact(&cycle(4.0, &[along_x(0.5, 0.0), along_x(0.5, 0.5), along_x(0.25, 0.5)]));
-    let expected = [0.0, 0.25, 0.5, 0.5, 0.5, 0.5, 0.75, 1.0, 1.0];
-    assert_eq!(aside.iter().map(|it| it.2).collect::<Vec<_>>(), expected);
-    assert_eq!((aside[4].0, aside[4].1), (0.5, 0.5));
-    assert_eq!((aside[5].0, aside[5].1), (0.25, 0.5));
-    assert_eq!((aside[8].0, aside[8].1), (0.75, 0.5), "half a metre from the last node on");
-}
-
-/// A node is more than 1/8 m ahead, and so is every point after it; ahead is along the heading of the CAV.
-/// H-14.1.
-#[test]
-fn nodes_begin_with_the_first_point_ahead() {
-    let first = |x: f64| exact(&cycle(4.0, &[along_x(x, 0.5)]))[1];
-    assert_eq!((first(0.125).1, first(0.125f64.next_up()).1), (0.0, 0.25));
-    let back = [along_x(-1.0, 0.0), along_x(0.0, 0.0), along_x(0.25, 0.0), along_x(0.0, 0.0)];
-    assert_eq!(xs(&cycle(4.0, &back))[..3], [0.0, 0.25, 0.0]);
-    let mut turned = cycle(4.0, &[along_x(0.5, 0.0)]);
-    (turned.ego.cos, turned.ego.sin) = (0.0, 1.0);
-    assert_eq!(exact(&turned)[1], (0.0, 0.25, 0.25, false), "the point is beside it");
 }
 
 /// H-14.7, H-14.8: the list ends where the way is s_stop, between two places.

@@ -46,26 +46,6 @@ fn margins_move_the_reach() {
     }
 }
 
-/// What is ahead is along the heading of the CAV, what is aside across it; p itself is not asked.
-#[test]
-fn reach_counts_from_the_heading_of_the_cav() {
-    let turned = |sin: f64| {
-        let mut cycle = base(HARDENED, PlanRemote);
-        cycle.ego.speed = 8.0;
-        (cycle.ego.cos, cycle.ego.sin) = ((1.0 - sin * sin).sqrt(), sin);
-        cycle.ego.y = 0.5;
-        rule(&cycle, Stage::Ii)
-    };
-    // To the left, where the CAV comes from: at 1 m it is 0.5 - 0.15 m aside, or 0.5 + 0.15 m.
-    assert_eq!(turned(-0.16), None);
-    assert_eq!(turned(0.16), None, "0.66 m of 0.77 m");
-    // Standing, nothing is asked: f < s_b(0) = 0 never holds.
-    let mut standing = base(HARDENED, PlanRemote);
-    beside(&mut standing, 1.9);
-    standing.ego.speed = 0.0;
-    assert_eq!(rule(&standing, Stage::Ii), None);
-}
-
 /// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
 /// those before it, after `reach`.
 #[test]
