@@ -28,22 +28,19 @@ pub fn verify_too_little_memory_is_refused() {
     let wide = |length: usize| length as u64;
     let found = given.capacity(looks_back);
     let has_places = given.stations > 0 && given.rows > 0 && given.columns >= given.rows;
-    match found {
-        Ok(capacity) => {
-            let most = wide(capacity);
-            assert!(has_places && (looks_back == (capacity > 0)));
-            assert!(!looks_back || 12 * most <= wide(given.detections));
-            assert!(!looks_back || 12 * most + 12 > wide(given.detections));
-            assert!(13 * most <= wide(given.slots));
-        }
-        Err(_) => {
-            // 13 slots for each twelfth of the detections.
-            let is_short = looks_back
-                && (given.detections < 12
-                    || 12 * wide(given.slots) < 13 * (wide(given.detections) - 11));
-            let needs = looks_back && wide(given.slots) < 13 * (wide(given.detections) / 12);
-            assert!(!has_places || is_short || needs);
-        }
+    if let Ok(capacity) = found {
+        let most = wide(capacity);
+        assert!(has_places && (looks_back == (capacity > 0)));
+        assert!(!looks_back || 12 * most <= wide(given.detections));
+        assert!(!looks_back || 12 * most + 12 > wide(given.detections));
+        assert!(13 * most <= wide(given.slots));
+    } else {
+        // 13 slots for each twelfth of the detections.
+        let is_short = looks_back
+            && (given.detections < 12
+                || 12 * wide(given.slots) < 13 * (wide(given.detections) - 11));
+        let needs = looks_back && wide(given.slots) < 13 * (wide(given.detections) / 12);
+        assert!(!has_places || is_short || needs);
     }
     kani::cover!(found.is_ok() && looks_back, "enough");
     kani::cover!(found.is_ok() && !looks_back && given.slots == 0, "enough for the paper");

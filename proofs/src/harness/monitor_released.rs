@@ -68,7 +68,7 @@ pub fn verify_detections_that_do_not_fit_are_an_error() {
         Ok(report) => assert!(report.failed_stage == cycle.failed_stage),
         Err(problem) => {
             let is_own = problem.problem == Problem::ScratchTooSmall;
-            assert!(is_own == !cycle.is_error());
+            assert!(is_own != cycle.is_error());
         }
     }
     let released = Released::of(&found, cycle.in_use, cycle.has_current);

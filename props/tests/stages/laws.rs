@@ -26,8 +26,11 @@ use proptest::test_runner::TestCaseError;
 /// How often each law was refuted by what was made wrong.
 type Refuted = RefCell<BTreeMap<&'static str, u64>>;
 
+/// A change of a report, by its name.
+type Wrong = (&'static str, fn(&mut Report));
+
 /// By law: how a schedule with one fault would have said it.
-const WRONG_REPORTS: [(&str, fn(&mut Report)); 6] = [
+const WRONG_REPORTS: [Wrong; 6] = [
     ("no_stage_runs_in_local", |report| report.stages[1] = Outcome::Passed),
     ("only_scheduled_stages_run", |report| report.stages[2] = Outcome::NotScheduled),
     ("nothing_runs_after_a_failure", |report| {
