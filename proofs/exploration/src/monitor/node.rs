@@ -17,7 +17,7 @@ use mufasa_model::offloading::requester::{Group, GroupState, Groups};
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Stage};
 
 use super::observer::{Observer, Shown};
-use super::period::{DT_MAX, L_MAX, MAX_AGE, PERIOD_NS, Period, Sent, route, settings};
+use super::period::{DT_MAX, L_MAX, LONGEST, MAX_AGE, PERIOD_NS, Period, Sent, route, settings};
 use crate::fit::fitted;
 
 /// The only station.
@@ -210,9 +210,6 @@ impl Node {
         }
     }
 }
-
-/// The longest time without use that a session can end with, periods (MON-33).
-pub const LONGEST: i64 = 2 * DT_MAX + 2;
 
 fn trajectory(stamp_ns: i64) -> Trajectory {
     let point = TrajectoryPoint { t_ns: stamp_ns, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };

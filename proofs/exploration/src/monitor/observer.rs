@@ -5,8 +5,7 @@ use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::monitor::messages::{Answer, Decision, Dropped, Verified};
 use mufasa_model::offloading::requester::{Action, Group, GroupState};
 
-use super::node::LONGEST;
-use super::period::{MAX_AGE, PERIOD_NS, Period, T_WAIT, TAU_NS};
+use super::period::{LONGEST, MAX_AGE, PERIOD_NS, Period, T_WAIT, TAU_NS};
 use crate::fit::fitted;
 use crate::properties::named;
 
@@ -15,7 +14,7 @@ named! {
     Law {
         /// MON-01, MON-45
         NothingOutOfUnsafe = "nothing comes out of an unsafe cycle",
-        /// FALL-03
+        /// FALL-04
         NothingBeforeHoldUntil = "nothing of a station comes out before hold_until",
         /// MON-01, MON-07
         OutIsCurrentAndUsed = "what comes out is of the running session, current, and used by the requester",
@@ -39,7 +38,7 @@ named! {
         UnsafeWithCurrent = "unsafe cycle with a current element",
         /// MON-45
         UnsafeForATick = "unsafe cycle without a tick",
-        /// FALL-03
+        /// FALL-04
         ArrivesInTheWait = "an element arrives before hold_until",
         /// MON-01
         ComesOut = "an element comes out",

@@ -21,6 +21,9 @@ pub const T_WAIT: i64 = 10;
 /// tau, ns.
 pub const TAU_NS: i64 = 250_000_000;
 
+/// The longest time without use that a session can end with, periods (MON-33).
+pub const LONGEST: i64 = 2 * DT_MAX + 2;
+
 /// What the station sends at the start of a period. Ages are periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sent {
