@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use crate::drive;
 use crate::numbers::real::formula::Formula;
 
 /// A theorem over the reals.
@@ -70,5 +71,10 @@ impl Judgement {
             (Decision::Proved, Decision::Proved | Decision::Unknown) => &Decision::Unknown,
             (decision, _) => decision,
         }
+    }
+    /// The counterexample of the wrong variant as a table, where it is a drive.
+    pub fn drive(&self) -> Option<String> {
+        let Decision::Refuted(values) = &self.control else { return None };
+        drive::table(values)
     }
 }

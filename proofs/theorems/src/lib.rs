@@ -7,6 +7,7 @@
 //! to z3: is there a counterexample?
 
 pub mod claim;
+pub mod drive;
 pub mod input;
 pub mod numbers;
 pub mod prove;

@@ -101,6 +101,9 @@ pub struct Claim {
     /// The statement near it that was refuted, of theorems.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refuted_variant: Option<String>,
+    /// The drive that refutes it, a table of times, places and speeds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drive: Option<String>,
     /// The changes of the source that make it fail; `scripts/mutants` applies them.
     pub mutants: Vec<String>,
 }
@@ -115,6 +118,7 @@ impl Claim {
             answer,
             others: Vec::new(),
             refuted_variant: None,
+            drive: None,
             mutants: Vec::new(),
         }
     }

@@ -10,7 +10,7 @@ use super::engines::Missing;
 /// Width of a table, characters.
 const WIDTH: u16 = 150;
 
-/// For a terminal, with the number of each verdict below.
+/// For a terminal, with the number of each verdict below, and the drives that refute wrong variants.
 pub fn text(lines: &[Claim]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
@@ -32,7 +32,15 @@ pub fn text(lines: &[Claim]) -> String {
     }
     let trimmed: String =
         table.to_string().lines().flat_map(|line| [line.trim_end(), "\n"]).collect();
-    format!("{trimmed}{}\n", counts(lines))
+    format!("{trimmed}{}{}\n", drives(lines), counts(lines))
+}
+
+fn drives(lines: &[Claim]) -> String {
+    let drives = lines.iter().filter_map(|line| {
+        let (wrong, drive) = line.refuted_variant.as_ref().zip(line.drive.as_ref())?;
+        Some(format!("\nFalse: {wrong} ({})\n\n{drive}\n\n", line.id))
+    });
+    drives.collect()
 }
 
 /// The engines that are not here, a line for each.

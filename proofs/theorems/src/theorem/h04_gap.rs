@@ -15,8 +15,8 @@ pub const THEOREMS: &[Theorem] = &[
                     s_react farther than a lead that brakes with a_b at once; so it reaches none that is \
                     farther ahead",
         domain: "all times, v, v_lead, tau >= 0, a_max, a_b > 0",
-        claim: || gone_farther(at_most),
-        wrong: Wrong { statement: "less than s_react farther", claim: || gone_farther(less) },
+        claim: || any_gone_farther(at_most),
+        wrong: Wrong { statement: "less than s_react farther", claim: || any_gone_farther(less) },
     },
     Theorem {
         id: "s_react_is_at_most_s_follow_exactly_when_tau_is_short",
@@ -47,14 +47,23 @@ fn behind() -> (Cav, Real) {
     (cav, v_lead)
 }
 
-fn gone_farther(order: fn(&Real, &Real) -> Formula) -> Formula {
+fn any_gone_farther(order: fn(&Real, &Real) -> Formula) -> Formula {
     let ((cav, v_lead), t) = (behind(), Real::variable("t"));
     given(at_most(&Real::zero(), &t));
+    given(kept(&cav, &cav.fastest(&t)));
+    gone_farther(&cav, &v_lead, &t, order)
+}
+
+/// The way of the fastest CAV after t, and that of a lead that brakes at once and s_react.
+pub fn gone_farther(
+    cav: &Cav,
+    v_lead: &Real,
+    t: &Real,
+    order: fn(&Real, &Real) -> Formula,
+) -> Formula {
     let driving = cav.driving();
-    let of_lead = braked(&v_lead, driving.a_b, &t);
-    let done = cav.fastest(&t);
-    given(kept(&cav, &done));
-    order(&done.way, &(s_react(&driving, &v_lead) + of_lead))
+    let of_lead = braked(v_lead, driving.a_b, t);
+    order(&cav.fastest(t).way, &(s_react(&driving, v_lead) + of_lead))
 }
 
 /// s_react <= s_follow, s_stop <= s_b(v_now) + s_CAV, v_lead <= v_now.

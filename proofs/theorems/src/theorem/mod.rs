@@ -9,6 +9,7 @@ pub mod h14_fail_safe;
 pub mod i_track_validation;
 pub mod lemma;
 pub mod rectangle;
+pub mod stop;
 pub mod v_grid_map;
 
 use crate::claim::Theorem;
@@ -27,6 +28,9 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         h14_fail_safe::motions::THEOREMS,
         h14_fail_safe::meeting::THEOREMS,
         h04_gap::THEOREMS,
+        stop::motion::THEOREMS,
+        stop::standing::THEOREMS,
+        stop::lead::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
     ]

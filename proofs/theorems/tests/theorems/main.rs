@@ -25,6 +25,9 @@ fn theorems_are_proved_and_their_wrong_variants_refuted() {
     others.par_iter().with_max_len(1).for_each(|theorem| {
         let judgement = judge(theorem).expect("z3 answers");
         println!("{}: {} paths, {:.1?}", theorem.id, judgement.paths, judgement.time);
+        if let Some(drive) = judgement.drive() {
+            println!("false: {}\n{drive}", theorem.wrong.statement);
+        }
         assert_eq!(*judgement.decision(), Decision::Proved, "{}: {judgement:?}", theorem.id);
     });
 }

@@ -36,9 +36,11 @@ pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Cla
     let judged = |line: Claim| {
         bar.set_message(line.id.clone());
         let theorem = theorem::all().find(|theorem| theorem.id == line.id);
-        let answer = theorem.map(solve::judge).transpose()?.map(|it| answer(&it));
+        let judgement = theorem.map(solve::judge).transpose()?;
+        let drive = judgement.as_ref().and_then(Judgement::drive);
+        let answer = judgement.as_ref().map(answer);
         bar.inc(1);
-        Ok(line.answered(answer.into_iter().collect()))
+        Ok(Claim { drive, ..line.answered(answer.into_iter().collect()) })
     };
     claims.into_par_iter().with_max_len(1).map(judged).collect()
 }

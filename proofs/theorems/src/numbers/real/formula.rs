@@ -59,6 +59,12 @@ pub fn forget_of_what_roots_are() {
     path::with(|path| path.roots_are_any_numbers = true);
 }
 
+/// From here on the solver knows of a product of variables only that it is the same wherever it stands: it takes
+/// linear steps from lemmas.
+pub fn forget_of_what_products_are() {
+    path::with(|path| path.products_are_any_numbers = true);
+}
+
 /// Assumes the formula on this path.
 pub fn given(formula: Formula) {
     match formula {

@@ -2,7 +2,7 @@
 //! which answers remain to be tried.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::solver::{Effort, Satisfiability, Solver};
 use dashu_base::{Abs, Signed};
@@ -74,6 +74,9 @@ pub struct Path {
     /// Roots made from here on are any numbers >= 0: the solver is not told of what. Facts about
     /// them have to be assumed, each a lemma. Fewer assumptions never prove more.
     pub roots_are_any_numbers: bool,
+    /// A product of variables is any number, the same wherever it stands: the solver is asked what follows
+    /// by linear steps alone. Fewer assumptions never prove more.
+    pub products_are_any_numbers: bool,
     /// Roots and quotients made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
     signs: BTreeMap<Polynomial, Signs>,
@@ -223,10 +226,16 @@ impl Path {
 
     /// What was assumed, and one more assertion, in SMT-LIB.
     fn script_with(&self, assertion: &str) -> String {
-        let names = self.names.iter().map(|name| format!("(declare-const |{name}| Real)\n"));
-        let script = self.script.iter().map(|line| format!("(assert {line})\n"));
-        let last = format!("(assert {assertion})");
-        [DECIMALS.to_owned()].into_iter().chain(names).chain(script).chain([last]).collect()
+        let lines = self.script.iter().map(String::as_str).chain([assertion]);
+        let script: String = lines.flat_map(|line| ["(assert ", line, ")\n"]).collect();
+        // Names stand between bars. Those of products that are any numbers are not among the variables.
+        let products: BTreeSet<&str> = script.split('|').skip(1).step_by(2).collect();
+        let is_new = |name: &&&str| !self.names.iter().any(|known| known == **name);
+        let products = products.iter().filter(is_new).copied();
+        let names = self.names.iter().map(String::as_str).chain(products);
+        let declared: String =
+            names.flat_map(|name| ["(declare-const |", name, "| Real)\n"]).collect();
+        [DECIMALS, &declared, &script].concat()
     }
 
     /// "The sign of the polynomial is one of these" in SMT-LIB.
@@ -266,8 +275,10 @@ impl Path {
             if value.is_negative() { format!("(- {text})") } else { text }
         };
         let term = |(monomial, value): (&Vec<Variable>, &RBig)| {
-            let factors = monomial.iter().map(|&v| format!("|{}|", self.names[usize::from(v)]));
-            let text = factors.collect::<Vec<_>>().join(" ");
+            let factors = monomial.iter().map(|&v| self.names[usize::from(v)].as_str());
+            let between = if self.products_are_any_numbers { " times " } else { "| |" };
+            let text = factors.collect::<Vec<_>>().join(between);
+            let text = if text.is_empty() { text } else { format!("|{text}|") };
             match (text.is_empty(), value.is_one()) {
                 (true, _) => number(value),
                 (false, true) => format!("(* 1.0 {text})"),

@@ -130,10 +130,14 @@ pub const THEOREMS: &[Theorem] = &[
 
 /// v, tau, a_max and a_b.
 pub struct Cav {
-    v: Real,
-    tau: Real,
-    a_max: Real,
-    a_b: Real,
+    /// m/s.
+    pub v: Real,
+    /// s.
+    pub tau: Real,
+    /// m/s^2.
+    pub a_max: Real,
+    /// m/s^2.
+    pub a_b: Real,
 }
 
 impl Cav {
@@ -185,7 +189,7 @@ impl Cav {
 }
 
 /// Distance driven in the time t at the acceleration a, m.
-fn driven(v: &Real, a: &Real, t: &Real) -> Real {
+pub fn driven(v: &Real, a: &Real, t: &Real) -> Real {
     v * t + a * t.square() / Real::from_integer(2)
 }
 
