@@ -3,8 +3,9 @@
 exactly), from the text of spec/ alone.
 
 It answers the records `cycle` (read by record.py, judged by paper.py or hardened.py), `offloading`
-(offloading.py) and `composition` (composition.py) of spec/5-interfaces.md, one line each. It is no
-part of the project: it shows how little a program needs to be judged by `mufasa conform`.
+(offloading.py), `composition` (composition.py) and `monitor` (monitor.py) of
+spec/5-interfaces.md, one line each. It is no part of the project: it shows how little a program
+needs to be judged by `mufasa conform`.
 """
 import json
 import sys
@@ -12,16 +13,19 @@ import sys
 import hardened
 import paper
 from composition import answer_composition
+from monitor import answer_monitor
 from offloading import answer_offloading
 from record import Broken, Invalid, check_input, choice, read_cycle
+
+
+def stage_of(cycle):
+    return (hardened if cycle["profile"] == "hardened" else paper).failed_stage(cycle)
 
 
 def failed_stage(cycle):
     if not check_input(cycle):
         return "input"
-    if cycle["configuration"] == "Local":
-        return None
-    return (hardened if cycle["profile"] == "hardened" else paper).failed_stage(cycle)
+    return None if cycle["configuration"] == "Local" else stage_of(cycle)
 
 
 def answer_cycle(record):
@@ -52,11 +56,13 @@ def answer(line):
         if not isinstance(record, dict) or not isinstance(record.get("id"), str):
             raise Broken
         name = record["id"]
-        kind = choice(record.get("kind"), ("cycle", "offloading", "composition"))
+        kind = choice(record.get("kind"), ("cycle", "offloading", "composition", "monitor"))
         if kind == "cycle":
             return {"id": name, **answer_cycle(record)}
         if kind == "offloading":
             return {"id": name, **answer_offloading(record)}
+        if kind == "monitor":
+            return {"id": name, **answer_monitor(record, stage_of)}
         return {"id": name, **answer_composition(record)}
     except (Broken, ValueError, RecursionError):
         return {"id": name, "verdict": "error", "failed_stage": None}

@@ -51,8 +51,11 @@ class Requester:
             if self.group[g].get("station") == station and g not in groups:
                 self.leave(g, release)
 
-    def tick(self, now_ns):
-        returned = set()
+    def tick(self, now_ns, give_back=()):
+        """A monitor gives groups back at a tick; a trace does not."""
+        returned = set(give_back)
+        for g in give_back:
+            self.leave(g)
         for g in GROUPS:
             if self.group[g]["state"] == "requested" and now_ns >= self.group[g]["deadline_ns"]:
                 self.leave(g)
@@ -112,6 +115,10 @@ class Requester:
                     slot["used_ns"] is not None and event["sessions"].get(g) == slot["session"]):
                 self.stop_local(g)
 
+    def drop(self, g):
+        """A monitor drops an element that does not count as an arrival."""
+        return self.step({"type": "drop", "t_ns": 0, "group": g})
+
     def step(self, event):
         self.actions = []
         kind, now_ns, station = event["type"], event["t_ns"], event.get("station")
@@ -127,7 +134,9 @@ class Requester:
                 if g not in self.area:
                     self.leave(g)
         elif kind == "tick":
-            self.tick(now_ns)
+            self.tick(now_ns, event.get("give_back", ()))
+        elif kind == "drop":
+            self.do(0, event["group"], {"drop": event["group"]})
         elif kind == "confirm":
             self.confirm(now_ns, event, named)
         elif kind == "reject":

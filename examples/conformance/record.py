@@ -148,18 +148,24 @@ def read_parameters(value, defaults):
             for key, default in defaults.items()}
 
 
+INPUTS = {
+    "trajectory": lambda v: stamped(v, "points", lambda p: plain(p, POSE, ["t_ns"])),
+    "tracks": lambda v: stamped(v, "items", read_track),
+    "detections": read_detections,
+    "lead": lambda v: plain(v, ["gap", "speed"], ["stamp_ns"]),
+    "grid": read_grid,
+    "detection_history": lambda v: listed(v, read_detections)}
+
+
+def read_ego(value):
+    return plain(value, [*POSE, "speed", *BOX, "center_offset"])
+
+
 def read_cycle(record):
     need = ["kind", "id", "now_ns", "configuration", "ego", "route"]
-    inputs = {
-        "trajectory": lambda v: stamped(v, "points", lambda p: plain(p, POSE, ["t_ns"])),
-        "tracks": lambda v: stamped(v, "items", read_track),
-        "detections": read_detections,
-        "lead": lambda v: plain(v, ["gap", "speed"], ["stamp_ns"]),
-        "grid": read_grid,
-        "detection_history": lambda v: listed(v, read_detections)}
-    fields(record, need, ["profile", "parameters", *inputs])
+    fields(record, need, ["profile", "parameters", *INPUTS])
     cycle = {key: None if record.get(key) is None else read(record[key])
-             for key, read in inputs.items()}
+             for key, read in INPUTS.items()}
     cycle["detection_history"] = cycle["detection_history"] or []
     cycle["profile"] = choice(record.get("profile", "hardened"), ("paper", "hardened"))
     defaults = {key: default for key, (default, _) in PARAMETERS.items()}
@@ -167,7 +173,7 @@ def read_cycle(record):
     cycle["now_ns"] = integer(record["now_ns"])
     names = ("Local", "MotRemote", "AllRemote", "PlanRemote")
     cycle["configuration"] = choice(record["configuration"], names)
-    cycle["ego"] = plain(record["ego"], [*POSE, "speed", *BOX, "center_offset"])
+    cycle["ego"] = read_ego(record["ego"])
     cycle["route"] = read_route(record["route"])
     return cycle
 
