@@ -59,11 +59,13 @@ macro_rules! same_fields {
 }
 
 mod cycle;
+mod monitor;
 mod profile;
 mod requester;
 mod verdict;
 
-pub use self::cycle::{Owned, cycle_parameters, from_impl, to_impl};
+pub use self::cycle::{Owned, cycle_parameters, from_impl, route_to_impl, to_impl};
+pub use self::monitor::{Bridged, lent, settings_to_impl};
 pub use self::profile::{profile_from_impl, profile_to_impl, rule_to_impl};
 pub use self::requester::{
     action_from_impl, configuration_from_impl, event_to_impl, group_from_impl, group_to_impl,

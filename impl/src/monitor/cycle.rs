@@ -131,10 +131,11 @@ impl Monitor<'_> {
             None => inputs.local_trajectory,
         };
         let has_route = self.route.is_set();
-        let mut report = self.check(self.configuration(), inputs, tracks, trajectory);
+        let mut report = self.check(self.configuration(), inputs, tracks, trajectory, true);
         if let Err(problem) = &mut report {
             *problem = named(*problem, has_route);
         }
+        let is_valid = report.is_ok();
         let dt_max_ns = self.settings.requester.dt_max_ns;
         let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
         let is_remote = mot.is_some() || plan.is_some();
@@ -162,7 +163,9 @@ impl Monitor<'_> {
         let brake = self.supervise(inputs, trajectory.is_some());
         if let Some(Stall { way_m, .. }) = self.settings.stall {
             let is_remote = self.configuration().is_remote(Group::Plan);
-            self.progress.cycle(now_ns, &inputs.ego, is_remote, way_m);
+            // A place in invalid input is none.
+            let place = is_valid.then_some([inputs.ego.x, inputs.ego.y]);
+            self.progress.cycle(now_ns, place, is_remote, way_m);
         }
         match report {
             Ok(report) if is_safe => {
@@ -176,8 +179,7 @@ impl Monitor<'_> {
         }
     }
 
-    /// Checks the inputs as in this configuration, and keeps the detections when they are valid and current; the same
-    /// ones are kept once. Never inlined: a cycle needs the stack of one run of the stages at a time.
+    /// Checks the inputs as in this configuration, and `keeps` the detections when they are valid and current. Never inlined: a cycle needs the stack of one run of the stages at a time.
     #[inline(never)]
     pub(super) fn check<'m>(
         &mut self,
@@ -185,6 +187,7 @@ impl Monitor<'_> {
         inputs: &Inputs<'m>,
         tracks: Option<TrackList<'m>>,
         trajectory: Option<Trajectory<'m>>,
+        keeps: bool,
     ) -> Result<Report, InvalidInput> {
         let now_ns = inputs.now.as_nanoseconds();
         let mut cycle = Cycle {
@@ -215,7 +218,7 @@ impl Monitor<'_> {
         let report = if_kept(report, holds)?;
         let [own, ..] = selection.indexes;
         let shape = own.shape();
-        if is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
+        if keeps && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
             self.history.keep(&list, shape);
         }
         Ok(report)

@@ -26,18 +26,16 @@ impl Monitor<'_> {
     #[inline(never)]
     fn own_failure(&mut self, inputs: &Inputs<'_>) -> Option<Brake> {
         let (now_ns, max_age_ns) = (inputs.now.as_nanoseconds(), self.settings.stages.max_age_ns);
-        let plan = inputs.local_trajectory;
-        let Some(plan) = plan.filter(|it| is_current(it.stamp_ns, now_ns, max_age_ns)) else {
-            return Some(Brake::NoPlan);
-        };
-        let as_remote = Configuration::PlanRemote;
-        let report = match self.check(as_remote, inputs, inputs.local_tracks, Some(plan)) {
+        let (as_remote, plan) = (Configuration::PlanRemote, inputs.local_trajectory);
+        let report = match self.check(as_remote, inputs, inputs.local_tracks, plan, false) {
             Ok(report) => report,
             Err(problem) => return Some(Brake::Invalid(named(problem, self.route.is_set()))),
         };
-        match (report.failed_stage?, report.input) {
-            (_, Some(problem)) => Some(Brake::Invalid(problem)),
-            (stage, None) => {
+        let is_missing = !plan.is_some_and(|it| is_current(it.stamp_ns, now_ns, max_age_ns));
+        match (report.failed_stage, report.input) {
+            (None, _) => is_missing.then_some(Brake::NoPlan),
+            (Some(_), Some(problem)) => Some(Brake::Invalid(problem)),
+            (Some(stage), None) => {
                 let witness = report.stages.into_iter().find_map(|outcome| match outcome {
                     Outcome::Failed(witness) => Some(witness),
                     Outcome::Passed

@@ -3,7 +3,6 @@
 use core::time::Duration;
 
 use super::time::Time;
-use crate::input::cycle::Ego;
 
 /// When a station's planning gets nowhere. Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +34,20 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// A cycle, after which PLAN is remote or not.
-    pub(super) fn cycle(&mut self, now_ns: i64, ego: &Ego, is_remote: bool, way_m: f64) {
-        let [dx, dy] = [ego.x - self.place[0], ego.y - self.place[1]];
-        if dx * dx + dy * dy > way_m * way_m {
-            (self.place, self.remote_ns) = ([ego.x, ego.y], 0);
+    /// A cycle that found the CAV at a place, after which PLAN is remote or not.
+    pub(super) fn cycle(
+        &mut self,
+        now_ns: i64,
+        place: Option<[f64; 2]>,
+        is_remote: bool,
+        way_m: f64,
+    ) {
+        let is_beyond = |[x, y]: &[f64; 2]| {
+            let [dx, dy] = [x - self.place[0], y - self.place[1]];
+            dx * dx + dy * dy > way_m * way_m
+        };
+        if let Some(place) = place.filter(is_beyond) {
+            (self.place, self.remote_ns) = (place, 0);
         }
         let since_ns = self.last_ns.map_or(0, |last_ns| now_ns.saturating_sub(last_ns));
         self.last_ns = is_remote.then_some(now_ns);

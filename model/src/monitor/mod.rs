@@ -193,15 +193,15 @@ impl Monitor {
         if !self.settings.stall.as_ref().is_some_and(is_stalled) {
             return self.tell(t_ns, requester::EventKind::Tick);
         }
-        // [MON-54] [MON-57] [MON-58]: out of the area for the length of this tick.
+        // [MON-54] [MON-57] [MON-58]: out of the area for a moment; the hold alone bars requests.
         self.progress.give_back(t_ns);
         self.requester.hold_at_least(t_ns.saturating_add(self.settings.requester.t_wait_ns));
         let groups = self.requester.in_area();
         let outside = Groups { plan: false, ..groups };
         let events = [
             requester::EventKind::Area { groups: outside },
-            requester::EventKind::Tick,
             requester::EventKind::Area { groups },
+            requester::EventKind::Tick,
         ];
         let mut actions: Vec<Action> =
             events.into_iter().flat_map(|kind| self.tell(t_ns, kind).actions).collect();

@@ -45,7 +45,7 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
         grid,
         detection_history,
     } = cycle;
-    let Route { closed, cross_sections } = route;
+    let (closed, cross_sections) = route_to_impl(route);
     Owned {
         profile: profile_to_impl(*profile),
         parameters: cycle_parameters(parameters),
@@ -58,8 +58,8 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
         tracks: tracks.as_ref().map(tracks_to_impl),
         detections: detections.as_ref().map(detections_to_impl),
         lead: lead.as_ref().map(lead_to_impl),
-        closed: *closed,
-        cross_sections: cross_sections.iter().map(cross_section_to_impl).collect(),
+        closed,
+        cross_sections,
         grid: grid.clone(),
         detection_history: detection_history.iter().map(detections_to_impl).collect(),
     }
@@ -160,9 +160,9 @@ same_variants! {
 }
 
 same_fields! {
-    fn ego_to_impl(Ego) -> twin::Ego { x, y, cos, sin, speed, length, width, center_offset }
+    pub(super) fn ego_to_impl(Ego) -> twin::Ego { x, y, cos, sin, speed, length, width, center_offset }
 
-    fn point_to_impl(TrajectoryPoint) -> twin::TrajectoryPoint { t_ns, x, y, cos, sin }
+    pub(super) fn point_to_impl(TrajectoryPoint) -> twin::TrajectoryPoint { t_ns, x, y, cos, sin }
 
     fn track_to_impl(Track) -> twin::Track { id, x, y, cos, sin, vx, vy, length, width }
 
@@ -185,14 +185,20 @@ same_fields! {
     fn cross_section_from_impl(twin::CrossSection) -> CrossSection { x, y, left, right }
 }
 
-fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
+pub(super) fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
     let TrackList { stamp_ns, items } = list;
     (*stamp_ns, items.iter().map(track_to_impl).collect())
 }
 
-fn detections_to_impl(list: &DetectionList) -> (i64, Vec<twin::Detection>) {
+pub(super) fn detections_to_impl(list: &DetectionList) -> (i64, Vec<twin::Detection>) {
     let DetectionList { stamp_ns, items } = list;
     (*stamp_ns, items.iter().map(detection_to_impl).collect())
+}
+
+/// A route in the implementation's types: whether it is closed, and its cross sections.
+pub fn route_to_impl(route: &Route) -> (bool, Vec<twin::CrossSection>) {
+    let Route { closed, cross_sections } = route;
+    (*closed, cross_sections.iter().map(cross_section_to_impl).collect())
 }
 
 fn borrow_detections((stamp_ns, items): &(i64, Vec<twin::Detection>)) -> twin::DetectionList<'_> {

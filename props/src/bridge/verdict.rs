@@ -28,7 +28,7 @@ pub fn report_to_impl(report: &Report) -> Option<twin::Report> {
     Some(twin::Report { failed_stage, stages: stages.clone().map(outcome_to_impl), input: None })
 }
 
-fn witness_from_impl(witness: twin::Witness) -> Witness {
+pub(super) fn witness_from_impl(witness: twin::Witness) -> Witness {
     let twin::Witness {
         rule,
         point,
@@ -54,7 +54,7 @@ fn witness_to_impl(witness: Witness) -> twin::Witness {
 }
 
 both_ways! {
-    fn failed_stage_from_impl(twin::FailedStage), fn failed_stage_to_impl(FailedStage) {
+    pub(super) fn failed_stage_from_impl(twin::FailedStage), fn failed_stage_to_impl(FailedStage) {
         Input,
         Stage(stage: stage_from_impl, stage_to_impl),
         NoObstacleCheck,

@@ -15,6 +15,7 @@ pub mod grid;
 pub mod history;
 pub mod input;
 pub mod map_validation;
+pub mod monitor;
 pub mod moving;
 pub mod obstacle;
 pub mod requester;

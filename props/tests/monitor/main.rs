@@ -1,4 +1,4 @@
-//! The monitor (`spec/monitor.md#monitor`): as the plain calls on any sequence of events and cycles,
+//! The monitor (`spec/monitor.md#monitor`): as its model on any sequence of events and cycles,
 //! and each mistake that those leave to the caller is an error or does not compile (what does not compile
 //! stands in the documentation of `impl/src/monitor`).
 
@@ -9,17 +9,14 @@ mod blind;
 mod brake_by;
 mod dropped;
 mod early;
-mod equal;
 mod game;
 mod habits;
-mod held;
 mod kit;
 mod limits;
 mod misuse;
+mod model;
 mod own_plan;
-mod plain;
+mod reached;
 mod restart;
-mod scene;
-mod seen;
 mod stack;
 mod starved;

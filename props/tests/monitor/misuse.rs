@@ -1,18 +1,19 @@
 //! Mistakes that the plain calls take without a word, and what the monitor makes of them.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{Cycle, DetectionList, Lead, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::input::profile::Profile;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::monitor::{Arrival, Decision, DropReason, Gap, Inputs, Message, Monitor, Time};
 use mufasa::offloading::requester::{
     Event, EventKind, Group, Groups, Requester, Source, StationRecord,
 };
-use mufasa::report::{FailedStage, Outcome, Rule, Stage};
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{
     Buffers, MS, Station, World, at, inputs, look_around, message, road, route, seconds, settings,
 };
-use super::plain::check_plainly;
 
 /// The plain record of a world, without history.
 fn record<'w>(
@@ -323,4 +324,12 @@ fn what_another_monitor_accepted_is_missing() {
         let given: Vec<bool> = given.by_ref().collect();
         assert_eq!(given, if station == 1 { vec![true] } else { vec![false, true] });
     }
+}
+
+/// The stages with scratch of the size that the cycle asks for.
+fn check_plainly(cycle: &Cycle<'_>) -> Result<Report, InvalidInput> {
+    let sizes = Sizes::for_cycle(cycle);
+    let mut rows = vec![Row::default(); sizes.rows];
+    let mut columns = vec![Column::default(); sizes.columns];
+    check(cycle, &mut Scratch::new(&mut rows, &mut columns))
 }

@@ -218,7 +218,8 @@ fn what_is_no_way_or_no_time_is_refused() {
     assert_eq!(Settings::new(Duration::from_millis(50)).stall, None);
 }
 
-/// The release and the start of the local planner come out of the tick, MOT's own silence after them. MON-57.
+/// The release and the start of the local planner come out of the tick, with those of MOT's own silence in the order
+/// of one event. MON-57, FALL-13.
 #[test]
 fn the_tick_names_release_and_start() {
     let stands = |now_ns: i64| creeping(now_ns, 0.0);
@@ -234,10 +235,13 @@ fn the_tick_names_release_and_start() {
         let [mot, plan] = station.sessions.map(|it| it.expect("a session"));
         let _late = monitor.tracks(at(3_150 * MS), message(mot, at(3_150 * MS), Vec::new()));
         let actions = monitor.tick(at(3_310 * MS));
-        let of = |group, session| {
-            [Action::Release { station: 1, group, session }, Action::Activate(group)]
-        };
-        let expected = [of(Group::Plan, plan), of(Group::Mot, mot)].concat();
+        let release = |group, session| Action::Release { station: 1, group, session };
+        let expected = [
+            release(Group::Mot, mot),
+            release(Group::Plan, plan),
+            Action::Activate(Group::Mot),
+            Action::Activate(Group::Plan),
+        ];
         assert_eq!(actions.to_vec(), expected);
     });
 }

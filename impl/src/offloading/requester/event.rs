@@ -161,6 +161,19 @@ pub enum Action {
     Drop(Group),
 }
 
+impl Action {
+    /// Its place among the actions of one event (`spec/2-offloading.md#fallback`).
+    const fn place(&self) -> (u8, bool) {
+        let (kind, group) = match *self {
+            Self::Drop(group) => (0, group),
+            Self::Release { group, .. } => (1, group),
+            Self::Activate(group) | Self::Deactivate(group) => (2, group),
+            Self::Request { group, .. } => (3, group),
+        };
+        (kind, matches!(group, Group::Plan))
+    }
+}
+
 /// The actions of one event, in the order in which they are taken: drops, releases, activations
 /// and deactivations, requests; MOT before PLAN within each. Read it as a slice. Source:
 /// `spec/2-offloading.md#fallback`.
@@ -244,9 +257,11 @@ impl Actions {
         actions
     }
 
-    /// These, and those of a later event: at most as many as there is place for.
+    /// These, and those of a later part of the same event, in the order of one: at most as many as there is place
+    /// for.
     pub(crate) fn and(mut self, later: &Self) -> Self {
         later.iter().for_each(|action| self.append(Some(*action)));
+        self.items.get_mut(..self.len).unwrap_or_default().sort_unstable_by_key(Action::place);
         self
     }
 
