@@ -56,10 +56,10 @@ impl PerGroup<Served> {
         if drops == [None; 2] {
             return Ok((None, by_kind));
         }
-        let why = if is_too_long {
-            DropReason::TooLong
-        } else if !is_running {
+        let why = if !is_running {
             DropReason::OtherSession
+        } else if is_too_long {
+            DropReason::TooLong
         } else if generated_ns > now_ns {
             DropReason::FromTheFuture
         } else if !is_in_time {

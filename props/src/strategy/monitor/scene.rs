@@ -49,7 +49,7 @@ impl Scene {
         let mut items = vec![track.clone()];
         if is_odd {
             items = match draw.below(6) {
-                0 => vec![beside(1, x + 3.0)],
+                0 => vec![beside(1, x + 3.17)],
                 1 => vec![beside(1, f64::NAN)],
                 2 => Vec::new(),
                 3 => (0..places).map(|id| beside(id, x)).collect(),
@@ -95,7 +95,7 @@ impl Scene {
             self.x = draw.pick(&[self.x, self.x + way, self.x + way.next_up(), 0.0]);
         }
         if draw.one_in(calm) {
-            self.object = draw.pick(&[[22.0, 2.0], [6.0, 2.0], [7.0, -2.0], [25.0, 2.0]]);
+            self.object = draw.pick(&[[22.0, 2.0], [6.0, 2.0], [7.0, -2.0], [25.3, 2.0]]);
         }
         let detections = (!draw.one_in(calm))
             .then(|| self.detections(draw, now_ns, calm, settings, last_kept_ns));
