@@ -75,11 +75,11 @@ pub enum Arrival<L> {
 /// `spec/monitor.md#monitor`, `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DropReason {
+    /// It is not of the running session of its group, or there is none.
+    OtherSession,
     /// It has more tracks than the memory that was lent (`rows`) is for. It is no arrival: a station
     /// that goes on so is silent, and its session ends after `dt_max`.
     TooLong,
-    /// It is not of the running session of its group, or there is none.
-    OtherSession,
     /// It was generated after it arrived: the clocks cannot be trusted. The session has ended.
     FromTheFuture,
     /// Its latency is above `l_max`. The session has ended.

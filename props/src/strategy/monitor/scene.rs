@@ -145,7 +145,9 @@ impl Scene {
     ) -> DetectionList {
         let [x, y] = self.object;
         let (cos, sin, length, width) = (1.0, 0.0, 4.5, 1.9);
-        let one = Detection { x, y, cos, sin, length, width };
+        // As if it came nearer or went away: which earlier lists a cycle has then decides.
+        let moved = if draw.one_in(6) { draw.range(-0.9, 0.9) } else { 0.0 };
+        let one = Detection { x: x + moved, y, cos, sin, length, width };
         let places = settings.memory.detections;
         let mut items = vec![one.clone()];
         if draw.one_in(calm) {
