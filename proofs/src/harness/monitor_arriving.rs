@@ -39,8 +39,8 @@ pub fn verify_a_message_is_accepted_exactly_when_it_is_of_use() {
 pub fn verify_the_reason_of_a_drop_is_the_first_that_holds() {
     let it = Arrived::any();
     let reasons = [
-        (it.message.is_too_long, DropReason::TooLong),
         (!it.runs(), DropReason::OtherSession),
+        (it.message.is_too_long, DropReason::TooLong),
         (it.message.generated_ns > it.now_ns, DropReason::FromTheFuture),
         (!it.is_in_time(), DropReason::Late),
         (it.is_too_old(), DropReason::TooOld),

@@ -183,7 +183,7 @@ pub fn verify_the_wait_is_nine_times_without_use() {
 }
 
 /// A cycle with something current counts as use, from the first such cycle; a group starves when none came for more than
-/// `dt_max`; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-37].
+/// `dt_max`, until one comes or the clock is set back; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-37, MON-63].
 ///
 /// Domain: all valid counts and times of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]
@@ -200,7 +200,9 @@ pub fn verify_a_cycle_counts_what_was_of_use() {
         None => None,
     };
     let without_ns = i128::from(now_ns) - i128::from(last_ns);
-    let is_starved = without_ns > i128::from(dt_max_ns);
+    let is_set_back = now_ns < before.last_ns;
+    let is_starved =
+        !has_current && !is_set_back && (before.is_starved || without_ns > i128::from(dt_max_ns));
     let expected = Served { session: before.session, first_ns, last_ns, is_starved };
     assert!(after == expected && is_ordered(after));
     assert!(!(has_current && after.is_starved));

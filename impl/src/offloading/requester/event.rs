@@ -259,10 +259,16 @@ impl Actions {
 
     /// These, and those of a later part of the same event, in the order of one: at most as many as there is place
     /// for.
-    pub(crate) fn and(mut self, later: &Self) -> Self {
-        later.iter().for_each(|action| self.append(Some(*action)));
-        self.items.get_mut(..self.len).unwrap_or_default().sort_unstable_by_key(Action::place);
-        self
+    pub(crate) fn and(self, later: &Self) -> Self {
+        let mut both = Self::NONE;
+        for kind in 0..4 {
+            for is_plan in [false, true] {
+                let here = |action: &&Action| action.place() == (kind, is_plan);
+                let actions = self.iter().chain(later.iter()).filter(here);
+                actions.for_each(|action| both.append(Some(*action)));
+            }
+        }
+        both
     }
 
     pub(crate) fn extend(&mut self, by_kind: &ByKind) {
