@@ -183,7 +183,7 @@ pub fn verify_the_wait_is_nine_times_without_use() {
 }
 
 /// A cycle with something current counts as use, from the first such cycle; a group starves when none came for more than
-/// `dt_max`, until one comes or the clock is set back; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-37, MON-63].
+/// `dt_max`; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-37].
 ///
 /// Domain: all valid counts and times of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]
