@@ -215,13 +215,13 @@ impl Monitor<'_> {
         cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
         let report =
             check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch);
-        let report = if_kept(report, holds)?;
+        if_kept(&report, holds)?;
         let [own, ..] = selection.indexes;
         let shape = own.shape();
         if keeps && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
             self.history.keep(&list, shape);
         }
-        Ok(report)
+        report
     }
 }
 

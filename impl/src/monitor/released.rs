@@ -37,14 +37,16 @@ impl Released {
     }
 }
 
-/// The report, if the detections of the cycle can be kept: a list that cannot would be missing in later cycles.
+/// Whether the report counts and the detections of the cycle can be kept: a list that cannot would be missing in later
+/// cycles.
 ///
 /// Errors: that of the report; the list does not fit. Source: `spec/monitor.md#monitor`.
-pub fn if_kept(report: Result<Report, InvalidInput>, fits: bool) -> Result<Report, InvalidInput> {
+pub fn if_kept(report: &Result<Report, InvalidInput>, fits: bool) -> Result<(), InvalidInput> {
     let problem = Problem::ScratchTooSmall;
     match report {
         Ok(_) if !fits => Err(InvalidInput { field: "detections.items", index: None, problem }),
-        report => report,
+        Ok(_) => Ok(()),
+        Err(problem) => Err(*problem),
     }
 }
 
