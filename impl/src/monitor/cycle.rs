@@ -159,7 +159,7 @@ impl Monitor<'_> {
         let tracks = tracks.filter(|_| gives_tracks);
         let trajectory = trajectory.filter(|_| gives_trajectory);
         let kind = EventKind::Verdict { safe: is_safe, sessions };
-        let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
+        let actions = self.step_alone(inputs.now, kind);
         let brake = self.supervise(inputs, trajectory.is_some());
         if let Some(Stall { way_m, .. }) = self.settings.stall {
             let is_remote = self.configuration().is_remote(Group::Plan);

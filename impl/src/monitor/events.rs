@@ -7,7 +7,7 @@ use super::element::{Accepted, Arrival, Message};
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
 use crate::input::profile::HardenedRule;
-use crate::offloading::requester::{Actions, Event, EventKind, Groups, RequesterError};
+use crate::offloading::requester::{Actions, ByKind, Event, EventKind, Groups, RequesterError};
 use crate::services::configuration::Group;
 
 impl Monitor<'_> {
@@ -66,7 +66,7 @@ impl Monitor<'_> {
 
     /// From now on these groups may be offloaded (CODM). Source: `spec/2-offloading.md#requester`.
     pub fn area(&mut self, now: Time, groups: Groups) -> Actions {
-        self.step(now, EventKind::Area { groups }).unwrap_or(Actions::NONE)
+        self.step_alone(now, EventKind::Area { groups })
     }
 
     /// Time passes: deadlines, silence and requests are decided. To be called in each period, and before
@@ -76,9 +76,9 @@ impl Monitor<'_> {
         self.ticked = Some(now);
         if self.is_stalled() {
             let given_back = self.give_back(now);
-            return given_back.and(&self.step(now, EventKind::Tick).unwrap_or(Actions::NONE));
+            return given_back.and(&self.step_alone(now, EventKind::Tick));
         }
-        self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
+        self.step_alone(now, EventKind::Tick)
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
@@ -129,8 +129,8 @@ impl Monitor<'_> {
     fn give_back(&mut self, now: Time) -> Actions {
         let area = self.requester.suspend().parts().area;
         let without = EventKind::Area { groups: Groups { plan: false, ..area } };
-        let left = self.step(now, without).unwrap_or(Actions::NONE);
-        let back = self.step(now, EventKind::Area { groups: area }).unwrap_or(Actions::NONE);
+        let left = self.step_alone(now, without);
+        let back = self.step_alone(now, EventKind::Area { groups: area });
         let t_wait_ns = self.settings.requester.t_wait_ns;
         self.requester.hold(now.as_nanoseconds().saturating_add(t_wait_ns));
         (self.progress.remote_ns, self.progress.given_back) = (0, Some(now));
@@ -160,11 +160,19 @@ impl Monitor<'_> {
     }
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
+        self.decide(now, kind).map(Actions::of)
+    }
+
+    /// An event that names no station, and can have no error.
+    pub(super) fn step_alone(&mut self, now: Time, kind: EventKind) -> Actions {
+        self.decide(now, kind).map_or(Actions::NONE, Actions::of)
+    }
+
+    fn decide(&mut self, now: Time, kind: EventKind) -> Result<ByKind, RequesterError> {
         let t_ns = now.as_nanoseconds();
         let looks = self.settings.profile.has(HardenedRule::H14);
         let is_blind = looks && matches!(kind, EventKind::Tick) && !self.history.reaches_back(t_ns);
         let Self { settings, requester, served, .. } = self;
-        let event = Event { t_ns, kind };
-        served.step(requester, &event, is_blind, || settings.period_ns()).map(Actions::of)
+        served.step(requester, &Event { t_ns, kind }, is_blind, || settings.period_ns())
     }
 }

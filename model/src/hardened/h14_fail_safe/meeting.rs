@@ -41,15 +41,15 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     })
 }
 
-/// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by a.
+/// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by the widening.
 fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
     let cav = cav(scene, pose);
-    let half_width = &cav.half_width + a(scene, trajectory);
+    let half_width = &cav.half_width + widening(scene, trajectory);
     Rectangle { half_width, ..cav }.with_halves(|half| scene.reads.raised(half))
 }
 
-/// a = abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
-fn a(scene: &Scene, trajectory: &[Point]) -> Real {
+/// abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
+fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
     let Frame { origin: x_0, direction: h_0 } = &trajectory[0].pose;
     (&scene.ego.position - x_0).cross(h_0).abs()
 }
@@ -80,17 +80,17 @@ pub fn comes_across(scene: &Scene, motion: &Motion, behind: bool) -> bool {
     motion.w.squared() > Real::zero() && is_swept_over(&inner, &now(motion).rectangle(), &motion.w)
 }
 
-/// The rectangle of the CAV at p, its front moved in by 0.3 m, its other sides by b = min(0.3 m, s_b(v)),
-/// b = 0 for an object that is behind.
+/// The rectangle of the CAV at p, its front moved in by 0.3 m, its other sides by the inset: min(0.3 m, s_b(v)),
+/// 0 for an object that is behind.
 pub fn inner(scene: &Scene, behind: bool) -> Rectangle {
     let (front, two) = (Real::from_double(0.3), Real::from_integer(2));
-    let b = if behind { Real::zero() } else { Driving::of(scene).s_b().min(front.clone()) };
+    let inset = if behind { Real::zero() } else { Driving::of(scene).s_b().min(front.clone()) };
     let Rectangle { frame, half_length, half_width } = cav(scene, &p(scene));
-    let back = -((&front - &b) / &two);
+    let back = -((&front - &inset) / &two);
     Rectangle {
         frame: Frame { origin: frame.point(&back, &Real::zero()), ..frame },
-        half_length: half_length - (&front + &b) / &two,
-        half_width: half_width - b,
+        half_length: half_length - (&front + &inset) / &two,
+        half_width: half_width - inset,
     }
 }
 
@@ -141,14 +141,14 @@ impl BesideRoute {
         // A closing segment of length 0 is none.
         let mut reference_path = scene.route.reference_path();
         reference_path.retain(|[from, to]| from != to);
-        let a = a(scene, trajectory);
+        let widening = widening(scene, trajectory);
         let mut is_along = true;
         let distances = |place: Place| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
             is_along &=
                 is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.way);
             let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
-            let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &a);
+            let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &widening);
             let cav = wider(scene, trajectory, &place.pose);
             (d_k, e_k.max().unwrap_or_else(Real::zero), cav)
         };
