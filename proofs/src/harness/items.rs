@@ -55,29 +55,30 @@ pub fn ego([cos, sin]: [f64; 2]) -> Ego {
     }
 }
 
+/// Any number, for sampling engines one of the domain up to ten times the default.
+trait Sampled: Sized {
+    fn near_default(least: Self, most: Self, default: Self) -> Self;
+}
+
+impl Sampled for f64 {
+    fn near_default(least: Self, most: Self, default: Self) -> Self {
+        near(least, most.min(10.0 * default))
+    }
+}
+
+impl Sampled for i64 {
+    fn near_default(least: Self, most: Self, default: Self) -> Self {
+        near_integer(least, most.min(default.saturating_mul(10)))
+    }
+}
+
+macro_rules! any_parameters {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in [$least:expr, $most:expr];)*) => {
+        Parameters { $($name: Sampled::near_default($least, $most, $default),)* }
+    };
+}
+
 /// Any parameters.
 pub fn parameters() -> Parameters {
-    Parameters {
-        theta_tr: near(0.1, 10.0),
-        theta_map: near(0.1, 10.0),
-        theta_obj: near(0.1, 10.0),
-        a_b: near(0.1, 10.0),
-        safety_time: near(0.0, 2.0),
-        max_age_ns: near_integer(0, 60_000_000_000),
-        n: near_integer(1, 2),
-        theta_track_max: near(0.1, 10.0),
-        miss_budget: near_integer(0, 2),
-        tau: near(0.0, 1.0),
-        a_max: near(0.1, 10.0),
-        start_tolerance: near(0.1, 1e3),
-        v_max: near(1.0, 1e3),
-        step_max_ns: near_integer(0, 60_000_000_000),
-        theta_velocity: near(0.1, 1e3),
-        lateral_tolerance: near(0.1, 10.0),
-        v_object: near(1.0, 1e3),
-        t_yield: near(0.0, 2.0),
-        a_yield: near(0.1, 10.0),
-        work_limit: near_integer(0, 10_000_000_000),
-        delta: near(1e-8, 1e-2),
-    }
+    mufasa::parameters!(any_parameters)
 }
