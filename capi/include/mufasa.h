@@ -352,7 +352,8 @@ typedef uint32_t MufasaConfiguration;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Why a message of a station was dropped; of several reasons the first in this order.
+// Why a message of a station was dropped; of several reasons the first in this order, except that
+// OTHER_SESSION comes before TOO_LONG.
 enum MufasaDropReason
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t

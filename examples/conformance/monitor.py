@@ -184,8 +184,11 @@ class Monitor:
         """The failed stage and the error of a cycle."""
         cycle, detections = dict(cycle), cycle["detections"]
         try:
-            if detections and len(detections["items"]) > self.memory["detections"]:
-                raise Invalid
+            own = cycle["tracks"] if cycle["configuration"] in ("Local", "PlanRemote") else None
+            kept = detections if self.hardened else None
+            for it, places in ((kept, "detections"), (own, "tracks")):  # MON-19, MON-65
+                if it and len(it["items"]) > self.memory[places]:
+                    raise Invalid
             if not check_input(cycle):
                 return "input", None
         except Invalid:

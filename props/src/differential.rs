@@ -92,7 +92,7 @@ pub fn runner() -> TestRunner {
     let config = Config {
         cases: cases(),
         failure_persistence: None,
-        max_shrink_iters: 20_000,
+        max_shrink_iters: Config::default().max_shrink_iters.min(20_000),
         ..Config::default()
     };
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))

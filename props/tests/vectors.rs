@@ -1,17 +1,20 @@
 //! Model and implementation on every published vector (`spec/5-interfaces.md#vectors`): what `vectors/` shows has no
 //! second test of its own.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use mufasa_model::cycle::check;
 use mufasa_model::report::Reading;
 use mufasa_props::bridge;
-use mufasa_props::refine::Pair;
-use mufasa_records::{self as json, Record};
+use mufasa_props::refine::{Monitors, Pair};
+use mufasa_records::{self as json, Record, Sequence};
 use serde_json::Value;
 use serde_json::value::RawValue;
+
+/// The implementation refuses a period of 0, in which no vehicle has a cycle; a vector and the model do not (MON-62).
+const STRICTER: &str = r#""monitor-settings-period-0""#;
 
 /// A vector: its keys with their text, since a JSON library may change a last digit.
 type Vector = BTreeMap<String, Box<RawValue>>;
@@ -71,10 +74,54 @@ fn the_implementation_conforms_on_every_published_vector() {
                 }
                 "offloading"
             }
-            // The implementation has no services, and reads no lines; `tests/monitor` compares monitors.
-            Ok(Record::Composition { .. } | Record::Monitor { .. }) | Err(_) => "other",
+            Ok(Record::Monitor { sequence, .. }) => {
+                if let Err(difference) = played(&sequence) {
+                    let is_known = vector["id"].get() == STRICTER;
+                    assert!(is_known, "{}: {difference}", vector["id"]);
+                }
+                "monitor"
+            }
+            // The implementation has no services, and reads no lines.
+            Ok(Record::Composition { .. }) | Err(_) => "other",
         };
         *count.entry(kind).or_default() += 1;
     });
     assert!(count["cycle"] > 1_300 && count["offloading"] > 100, "{count:?}");
+    assert!(count["monitor"] > 150, "{count:?}");
+}
+
+/// Of the monitor: no record shows them, and which test does.
+const NO_RECORD: [(&str, &str); 3] = [
+    // What came out can be read by nobody later: a matter of borrows, not of an answer.
+    ("MON-03", "sources/does_not_compile.rs"),
+    // What control does with a decision: the record ends at the decision.
+    ("MON-42", "monitor/brake_by.rs"),
+    ("MON-53", "monitor/own_plan.rs"),
+];
+
+#[test]
+fn each_requirement_of_the_monitor_has_a_vector_or_says_why_not() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("../spec/monitor.md")).expect("the page");
+    let ids = page.split("**[").skip(1).filter_map(|it| it.split_once("]**").map(|it| it.0));
+    let mut shown = BTreeSet::new();
+    each(|vector, _| {
+        shown.insert(vector["requirement"].get().trim_matches('"').to_owned());
+    });
+    let without: Vec<&str> = ids.filter(|id| !shown.contains(*id)).collect();
+    assert_eq!(without, NO_RECORD.map(|(id, _)| id));
+    for (id, test) in NO_RECORD {
+        let test = fs::read_to_string(root.join("tests").join(test)).expect("a test");
+        assert!(test.contains(id), "{id}");
+    }
+}
+
+/// Both monitors live through it.
+fn played(sequence: &Sequence) -> Result<(), String> {
+    let settings = sequence.settings();
+    let mut lent = bridge::lent(&settings);
+    let Some(mut pair) = Monitors::new(&settings, sequence.route.clone(), &mut lent)? else {
+        return Ok(());
+    };
+    sequence.events.iter().try_for_each(|event| pair.step(event).map(drop))
 }

@@ -3,13 +3,13 @@
 use core::ffi::c_void;
 use core::ptr::null_mut;
 
-use mufasa::input::cycle::{CrossSection, Ego, Grid, Route, Track, TrajectoryPoint};
-use mufasa::monitor::{Gap, GridMap, Inputs, Time};
-use mufasa::offloading::requester::EventKind;
+use mufasa::input::cycle::{CrossSection, Ego, Grid, Route};
+use mufasa::monitor::{Gap, GridMap, Inputs, Monitor, Time};
+use mufasa::offloading::requester::{EventKind, Group};
 use mufasa::report::Problem;
 
 use super::decision::{MufasaActions, MufasaDecision, actions_of, nothing_decided};
-use super::element::{MufasaTrackMessage, MufasaTrajectoryMessage, Stored, message};
+use super::element::{MufasaTrackMessage, MufasaTrajectoryMessage, message, with_remote};
 use super::place::{self, MufasaMonitor, MufasaMonitorInputs};
 use super::settings::MufasaMonitorSettings;
 use crate::convert;
@@ -279,7 +279,8 @@ unsafe fn tracks(
     // SAFETY: as above.
     let items = unsafe { list(tracks.items, tracks.items_len, convert::TRACKS) }?;
     let items = items.iter().map(convert::track);
-    received.arrive(items, *session, |session, items| {
+    let is_running = runs(monitor, Group::Mot, (*station, *session));
+    received.arrive(items, *session, is_running, |session, items| {
         let message = message((*station, session, *generated), tracks.stamp, items);
         monitor.tracks(now, message).map_err(requester::refused)
     })
@@ -300,10 +301,16 @@ unsafe fn trajectory(
     // SAFETY: as above.
     let points = unsafe { list(trajectory.points, trajectory.points_len, convert::POINTS) }?;
     let points = points.iter().map(convert::trajectory_point);
-    received.arrive(points, *session, |session, items| {
+    let is_running = runs(monitor, Group::Plan, (*station, *session));
+    received.arrive(points, *session, is_running, |session, items| {
         let message = message((*station, session, *generated), trajectory.stamp, items);
         monitor.trajectory(now, message).map_err(requester::refused)
     })
+}
+
+/// Whether this session of this station is the running one of a group.
+fn runs(monitor: &Monitor<'_>, group: Group, named: (i64, i64)) -> bool {
+    monitor.requester().session_of(group).is_some_and(|it| (it.station, it.session) == named)
 }
 
 /// # Safety
@@ -352,13 +359,7 @@ unsafe fn cycle(
         fits(it.points.len(), trajectory.capacity())?;
         inputs = inputs.local_trajectory(Time::from_nanoseconds(it.stamp_ns), it.points);
     }
-    if let Some(element) = tracks.accepted() {
-        inputs = inputs.remote_tracks::<Stored<Track>>(element);
-    }
-    if let Some(element) = trajectory.accepted() {
-        inputs = inputs.remote_trajectory::<Stored<TrajectoryPoint>>(element);
-    }
-    Ok(verdicts.of_cycle(monitor, &inputs))
+    Ok(verdicts.of_cycle(monitor, &with_remote(inputs, tracks, trajectory)))
 }
 
 /// Whether a list is no longer than the settings say.
@@ -366,7 +367,8 @@ const fn fits(len: usize, most: usize) -> Result<(), MufasaStatus> {
     if len <= most { Ok(()) } else { Err(MufasaStatus::MemoryTooSmall) }
 }
 
-/// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number.
+/// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number. That elements of the
+/// stations were current counts in it, too (MON-35).
 fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
     let nowhere = Ego {
         x: 0.0,
@@ -378,8 +380,8 @@ fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
         width: f64::NAN,
         center_offset: 0.0,
     };
-    let MufasaMonitor { monitor, verdicts, .. } = monitor;
-    let inputs = Inputs::new(now.time(), nowhere);
+    let MufasaMonitor { monitor, verdicts, tracks, trajectory, .. } = monitor;
+    let inputs = with_remote(Inputs::new(now.time(), nowhere), tracks, trajectory);
     let actions = verdicts.of_cycle(monitor, &inputs).actions;
     MufasaDecision { actions, ..nothing_decided() }
 }

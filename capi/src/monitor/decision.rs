@@ -11,7 +11,8 @@ use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, Muf
 use crate::report::{self, MufasaReport};
 use crate::time::MufasaTime;
 
-/// Why a message of a station was dropped; of several reasons the first in this order.
+/// Why a message of a station was dropped; of several reasons the first in this order, except that
+/// OTHER_SESSION comes before TOO_LONG.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MufasaDropReason {

@@ -4,7 +4,7 @@ use core::mem::swap;
 use core::slice;
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
-use mufasa::monitor::{Accepted, Arrival, Message};
+use mufasa::monitor::{Accepted, Arrival, Inputs, Message};
 use mufasa::offloading::requester::Actions;
 
 use super::decision::{MufasaActions, MufasaDropReason, actions_of};
@@ -91,13 +91,14 @@ impl<T> Received<T> {
         Some(Stored { items: self.spare, len: written })
     }
 
-    /// Elements arrive, in the session that they name: stored and given to the monitor. A list too long
-    /// for its place is told to the monitor as an empty one of no session: that is no arrival, as the
-    /// monitor itself treats tracks that are too many.
+    /// Elements arrive, in the session that they name, which runs or does not: stored and given to the monitor.
+    /// A list too long for its place is told to the monitor as an empty one of no session: that is no arrival, as
+    /// the monitor itself treats tracks that are too many.
     pub(super) fn arrive(
         &mut self,
         items: impl ExactSizeIterator<Item = T>,
         session: i64,
+        is_running: bool,
         tell: impl FnOnce(i64, Stored<T>) -> Result<(Arrival<Stored<T>>, Actions), MufasaStatus>,
     ) -> Result<MufasaActions, MufasaStatus> {
         if let Some(stored) = self.store(items) {
@@ -105,7 +106,8 @@ impl<T> Received<T> {
         }
         let nothing = Stored { items: self.spare.cast_const(), len: 0 };
         let actions = self.take(tell(NO_SESSION, nothing)?);
-        Ok(MufasaActions { dropped: MufasaDropReason::TooLong, ..actions })
+        let dropped = if is_running { MufasaDropReason::TooLong } else { actions.dropped };
+        Ok(MufasaActions { dropped, ..actions })
     }
 
     /// What has to be done about it. An element that was accepted is the last one from now on; the place of
@@ -141,6 +143,21 @@ pub(super) fn message<T>(
 ) -> Message<Stored<T>> {
     let (generated, stamp) = (generated.time(), stamp.time());
     Message { station, session, generated, stamp, items }
+}
+
+/// Inputs with the last elements that were used.
+pub(super) fn with_remote<'c>(
+    mut inputs: Inputs<'c>,
+    tracks: &'c Received<Track>,
+    trajectory: &'c Received<TrajectoryPoint>,
+) -> Inputs<'c> {
+    if let Some(element) = tracks.accepted() {
+        inputs = inputs.remote_tracks::<Stored<Track>>(element);
+    }
+    if let Some(element) = trajectory.accepted() {
+        inputs = inputs.remote_trajectory::<Stored<TrajectoryPoint>>(element);
+    }
+    inputs
 }
 
 /// A track in a place that nothing was written to yet.

@@ -204,18 +204,21 @@ impl Monitor<'_> {
             grid: inputs.grid,
             detection_history: &[],
         };
+        let tracks_fit = tracks.is_none_or(|list| list.items.len() <= self.rows.len());
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
-            return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
+            let report = check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
+            if_kept(&report, [true, tracks_fit])?;
+            return report;
         };
         let holds = self.history.holds(&list);
         let selection = self.history.select(&list);
         cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
         let report =
             check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch);
-        if_kept(&report, holds)?;
+        if_kept(&report, [holds, tracks_fit])?;
         let [own, ..] = selection.indexes;
         let shape = own.shape();
         if keeps && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {

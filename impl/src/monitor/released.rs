@@ -37,15 +37,21 @@ impl Released {
     }
 }
 
-/// Whether the report counts and the detections of the cycle can be kept: a list that cannot would be missing in later
-/// cycles.
+/// Whether the report counts: the detections of the cycle fit, which would be missing in later cycles, and its own tracks.
 ///
-/// Errors: that of the report; the list does not fit. Source: `spec/monitor.md#monitor`.
-pub fn if_kept(report: &Result<Report, InvalidInput>, fits: bool) -> Result<(), InvalidInput> {
-    let problem = Problem::ScratchTooSmall;
+/// Errors: that of the report; a list does not fit. Source: `spec/monitor.md#monitor`.
+pub fn if_kept(
+    report: &Result<Report, InvalidInput>,
+    [detections_fit, tracks_fit]: [bool; 2],
+) -> Result<(), InvalidInput> {
+    let field = if detections_fit { "tracks.items" } else { "detections.items" };
+    let own = InvalidInput { field, index: None, problem: Problem::ScratchTooSmall };
+    let fits = detections_fit && tracks_fit;
     match report {
-        Ok(_) if !fits => Err(InvalidInput { field: "detections.items", index: None, problem }),
+        Ok(_) if !fits => Err(own),
         Ok(_) => Ok(()),
+        // What does not fit is too much for the scratch, too.
+        Err(problem) if !fits && problem.problem == own.problem => Err(own),
         Err(problem) => Err(*problem),
     }
 }

@@ -99,12 +99,24 @@ impl Monitor {
         of_session(self.trajectory.as_ref(), self.requester.session_of(Group::Plan))
     }
 
-    /// [MON-19]
-    fn misfit(&self, cycle: &Cycle) -> Option<InvalidInput> {
-        let (items, places) = (&cycle.detections.as_ref()?.items, self.settings.memory.detections);
-        let message = format!("{} items, where the memory has {places} places", items.len());
-        let problem = InvalidInput { field: "detections.items".into(), index: None, message };
-        (!fits(items, places)).then_some(problem)
+    /// [MON-19] [MON-65]
+    fn misfit(&self, own: &Cycle) -> Option<InvalidInput> {
+        let memory = self.settings.memory;
+        let is_kept = history::is_kept(own.profile);
+        let detections = own.detections.as_ref().filter(|_| is_kept);
+        let tracks = own.tracks.as_ref().filter(|_| !own.configuration.remote().mot);
+        [
+            detections.map(|it| (fits(&it.items, memory.detections), "detections.items")),
+            tracks.map(|it| (fits(&it.items, memory.tracks), "tracks.items")),
+        ]
+        .into_iter()
+        .flatten()
+        .find(|(fits, _)| !fits)
+        .map(|(_, field)| InvalidInput {
+            field: field.into(),
+            index: None,
+            message: "more items than the memory has places".into(),
+        })
     }
 
     /// What a cycle with valid local input leaves behind. [MON-12] [MON-17] [MON-55]
@@ -172,8 +184,8 @@ impl Monitor {
             .as_ref()
             .filter(|it| is_current(own.now_ns, it.stamp_ns, own.parameters.max_age_ns));
         let detection_history = self.history.of_cycle(own.now_ns, current);
-        let misfit = self.misfit(&own);
-        let cycle = Cycle { detection_history, ..own };
-        supervision::examine(&cycle, misfit.as_ref(), judge)
+        let configuration = Configuration::PlanRemote;
+        let as_remote = Cycle { configuration, detection_history, ..own };
+        supervision::examine(&as_remote, self.misfit(&as_remote).as_ref(), judge)
     }
 }

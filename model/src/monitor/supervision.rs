@@ -5,15 +5,13 @@ use super::elements::is_current;
 use super::messages::Brake;
 use crate::input::cycle::Cycle;
 use crate::report::{InvalidInput, Report};
-use crate::services::configuration::Configuration;
 
-/// Examines the CAV's own trajectory as in `PlanRemote`: the cycle with its own tracks and trajectory, and
+/// Examines the CAV's own trajectory: `own` is the cycle as in `PlanRemote`, with its own tracks and trajectory, and
 /// the history as the cycle leaves it. [MON-47] [MON-48] [MON-50] [MON-51]
 ///
 /// `misfit` is what of the input is refused beside the stages.
 pub fn examine(own: &Cycle, misfit: Option<&InvalidInput>, judge: Judge<'_>) -> Option<Brake> {
-    let as_remote = Cycle { configuration: Configuration::PlanRemote, ..own.clone() };
-    match (judge(&as_remote), misfit) {
+    match (judge(own), misfit) {
         (Err(problem), _) => Some(Brake::Invalid(problem)),
         (Ok(_), Some(problem)) => Some(Brake::Invalid(problem.clone())),
         (Ok(report), None) => failed(&report)

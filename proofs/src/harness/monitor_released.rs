@@ -56,14 +56,15 @@ pub fn verify_the_verdict_names_exactly_what_comes_out() {
     kani::cover!(trajectory && plan.is_none(), "nothing to name");
 }
 
-/// A list of detections that does not fit makes of each report an error; else the answer of the stages stays
-/// [MON-19].
+/// A list of detections or own tracks that does not fit makes of each report an error; else the answer of the stages
+/// stays [MON-19, MON-65].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_detections_that_do_not_fit_are_an_error() {
     let cycle = cycle();
-    let fits = kani::any();
+    let each: [bool; 2] = [kani::any(), kani::any()];
+    let fits = each == [true; 2];
     let answer = cycle.answer();
-    let kept = if_kept(&answer, fits);
+    let kept = if_kept(&answer, each);
     assert!(kept.is_err() == (cycle.is_error() || !fits));
     if let Err(problem) = kept {
         let is_own = problem.problem == Problem::ScratchTooSmall;

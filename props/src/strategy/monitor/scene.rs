@@ -118,7 +118,7 @@ impl Scene {
         });
         let tracks = (!draw.one_in(calm)).then(|| {
             let stamp_ns = Self::stamp(draw, now_ns, calm, settings);
-            self.tracks(draw, stamp_ns, other_is_odd, settings.memory.tracks - 1)
+            self.tracks(draw, stamp_ns, other_is_odd, settings.memory.tracks)
         });
         let gap = draw.pick(&[0.2, 30.0, -1.0]);
         let lead = draw.one_in(calm).then_some(Lead { stamp_ns: now_ns, gap, speed: 0.0 });

@@ -51,7 +51,7 @@ const EYES: &[(&str, Eye)] = &[
             stall.way = 0.001;
         }
     }),
-    ("one detection fits", |it| it.memory.detections = 1),
+    ("two detections fit", |it| it.memory.detections = 2),
     ("1024 tracks fit", |it| it.memory.tracks = 1024),
     ("no track fits", |it| it.memory.tracks = 0),
     ("a thousand cross sections fit", |it| it.memory.cross_sections = 1000),

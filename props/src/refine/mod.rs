@@ -3,6 +3,10 @@
 //! [`Pair::step`] is the one function through which every event of the exploration, of a replayed
 //! trace and of a random walk goes.
 
+mod monitor;
+
+pub use self::monitor::Monitors;
+
 use std::fmt;
 
 use crate::bridge;

@@ -1,0 +1,397 @@
+//! The monitor of the C interface answers as its exact model on the sequences of `mufasa_props`
+//! (`spec/monitor.md#monitor`).
+//!
+//! `MufasaMonitorSettings` has neither `supervise_local` nor `stall`, so that no sequence has them here: `brake` and the
+//! time at which PLAN was given back are not shown in C. Own tracks beyond the settings are refused even while MOT is
+//! remote and no cycle looks at them (MON-65): there they are left out, which the test counts.
+
+use std::collections::BTreeMap;
+use std::mem::MaybeUninit;
+use std::ptr::{from_ref, null, null_mut};
+
+use mufasa_capi::cycle::{
+    MufasaCrossSection, MufasaDetection, MufasaDetectionList, MufasaEgo, MufasaGrid, MufasaLead,
+    MufasaProfile, MufasaRoute, MufasaTrack, MufasaTrackList, MufasaTrajectory,
+    MufasaTrajectoryPoint,
+};
+use mufasa_capi::event::{
+    MufasaAction, MufasaActionType, MufasaEvent, MufasaEventType as Kind, MufasaGroup,
+};
+use mufasa_capi::monitor::{
+    MufasaActions, MufasaDecision, MufasaDropReason, MufasaMonitor, MufasaMonitorInputs,
+    MufasaMonitorSettings, MufasaTrackMessage, MufasaTrajectoryMessage, mufasa_monitor_bytes,
+    mufasa_monitor_cycle, mufasa_monitor_init, mufasa_monitor_set_route,
+    mufasa_monitor_settings_default, mufasa_monitor_state, mufasa_monitor_step,
+    mufasa_monitor_tracks, mufasa_monitor_trajectory,
+};
+use mufasa_capi::report::{MufasaFailedStage, MufasaVerdict};
+use mufasa_capi::requester::{MufasaGroupState, MufasaGroupStateKind, MufasaRequesterState};
+use mufasa_capi::status::MufasaStatus;
+use mufasa_capi::time::{MufasaGap, MufasaTime};
+use mufasa_model::input::cycle::{
+    CrossSection, Detection, Grid, Lead, Route, Track, TrackList, Trajectory, TrajectoryPoint,
+};
+use mufasa_model::input::profile::Profile;
+use mufasa_model::monitor::Monitor;
+use mufasa_model::monitor::messages::{
+    Answer, Decision, Dropped, Event, EventKind, Measured, Verified,
+};
+use mufasa_model::monitor::settings::Settings;
+use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups};
+use mufasa_model::report::{FailedStage, Reading, Stage};
+use mufasa_props::bridge;
+use mufasa_props::strategy::monitor::{Script, route};
+
+/// Sequences of each profile.
+const SEQUENCES: u64 = 60;
+/// Events and cycles of a sequence, and choices that make it.
+const STEPS: usize = 500;
+const TAPE: usize = 6_000;
+
+/// What both sides say of an event, as far as C has it.
+#[derive(Debug, PartialEq)]
+struct Seen {
+    groups: [GroupState; 2],
+    hold_until_ns: Option<i64>,
+    actions: Vec<Action>,
+    /// An older element counts as repeated: C has one word for both.
+    dropped: Option<Dropped>,
+    decision: Option<Decided>,
+}
+
+/// `Err`: an error. Of tracks and trajectory the stamps.
+#[derive(Debug, PartialEq)]
+struct Decided {
+    failed: Result<MufasaFailedStage, ()>,
+    tracks_ns: Option<i64>,
+    trajectory_ns: Option<i64>,
+    brake_by_ns: Option<i64>,
+}
+
+/// A monitor in memory of its own.
+struct InC {
+    _memory: Vec<u64>,
+    monitor: *mut MufasaMonitor,
+}
+
+fn time(ns: i64) -> MufasaTime {
+    MufasaTime { ns }
+}
+
+/// A struct of C with the same fields.
+macro_rules! same {
+    ($from:expr => $to:ident { $($field:ident),* } $($rest:tt)*) => {
+        $to { $($field: $from.$field,)* $($rest)* }
+    };
+}
+
+fn track(it: &Track) -> MufasaTrack {
+    same!(it => MufasaTrack { id, x, y, cos, sin, vx, vy, length, width })
+}
+
+fn point(it: &TrajectoryPoint) -> MufasaTrajectoryPoint {
+    same!(it => MufasaTrajectoryPoint { x, y, cos, sin } t: time(it.t_ns))
+}
+
+fn track_list(stamp_ns: i64, items: &[MufasaTrack]) -> MufasaTrackList {
+    MufasaTrackList { stamp: time(stamp_ns), items: items.as_ptr(), items_len: items.len() }
+}
+
+fn path(stamp_ns: i64, points: &[MufasaTrajectoryPoint]) -> MufasaTrajectory {
+    MufasaTrajectory { stamp: time(stamp_ns), points: points.as_ptr(), points_len: points.len() }
+}
+
+impl InC {
+    fn new(settings: &Settings, route: &Route) -> Self {
+        let count = |places: i64| usize::try_from(places).expect("places");
+        let profile = match settings.profile {
+            Profile::PAPER => MufasaProfile::Paper,
+            _ => MufasaProfile::Hardened,
+        };
+        let given = MufasaMonitorSettings {
+            profile: profile as u32,
+            stages: bridge::cycle_parameters(&settings.parameters).into(),
+            requester: bridge::parameters_to_impl(&settings.requester).into(),
+            sessions_before: settings.last_session,
+            most_tracks: count(settings.memory.tracks),
+            most_detections: count(settings.memory.detections),
+            most_cross_sections: count(settings.memory.cross_sections),
+            ..mufasa_monitor_settings_default(settings.period_ns)
+        };
+        // SAFETY: the settings live to the end of this function.
+        let bytes = unsafe { mufasa_monitor_bytes(&raw const given) };
+        let mut memory = vec![0_u64; bytes.div_ceil(8)];
+        let (place, mut monitor) = (memory.as_mut_ptr().cast(), null_mut());
+        // SAFETY: as above; the memory is the monitor's as long as both live.
+        let status =
+            unsafe { mufasa_monitor_init(&raw const given, place, bytes, &raw mut monitor) };
+        assert_eq!(status, MufasaStatus::Ok);
+        let section = |it: &CrossSection| same!(it => MufasaCrossSection { x, y, left, right });
+        let sections: Vec<_> = route.cross_sections.iter().map(section).collect();
+        let (cross_sections, cross_sections_len) = (sections.as_ptr(), sections.len());
+        let closed = u8::from(route.closed);
+        let route = MufasaRoute { closed, cross_sections, cross_sections_len };
+        // SAFETY: the monitor was just made; the route lives to the end of this function.
+        let status = unsafe { mufasa_monitor_set_route(monitor, &raw const route) };
+        assert_eq!(status, MufasaStatus::Ok);
+        Self { _memory: memory, monitor }
+    }
+
+    fn step(&mut self, event: &Event) -> Seen {
+        let mut actions = MaybeUninit::<MufasaActions>::uninit();
+        let (to, now, mut decision) = (actions.as_mut_ptr(), time(event.t_ns), None);
+        let status = match &event.kind {
+            EventKind::Tracks { station, session, generated_ns, tracks } => {
+                let items: Vec<_> = tracks.items.iter().map(track).collect();
+                let tracks = track_list(tracks.stamp_ns, &items);
+                let (station, session, generated) = (*station, *session, time(*generated_ns));
+                let message = MufasaTrackMessage { station, session, generated, tracks };
+                // SAFETY: what is pointed to lives longer than the call, here and below.
+                unsafe { mufasa_monitor_tracks(self.monitor, now, &raw const message, to) }
+            }
+            EventKind::Trajectory { station, session, generated_ns, trajectory } => {
+                let points: Vec<_> = trajectory.points.iter().map(point).collect();
+                let trajectory = path(trajectory.stamp_ns, &points);
+                let (station, session, generated) = (*station, *session, time(*generated_ns));
+                let message = MufasaTrajectoryMessage { station, session, generated, trajectory };
+                // SAFETY: as above.
+                unsafe { mufasa_monitor_trajectory(self.monitor, now, &raw const message, to) }
+            }
+            EventKind::Cycle { measured } => {
+                let (decided, told) = self.cycle(now, measured);
+                decision = Some(decided);
+                actions.write(told);
+                MufasaStatus::Ok
+            }
+            kind => {
+                let event = plain(now, kind);
+                // SAFETY: as above.
+                unsafe { mufasa_monitor_step(self.monitor, &raw const event, to) }
+            }
+        };
+        assert_eq!(status, MufasaStatus::Ok);
+        // SAFETY: a call with this status has written them.
+        let actions = unsafe { actions.assume_init() };
+        let mut state = MaybeUninit::<MufasaRequesterState>::uninit();
+        // SAFETY: as above.
+        let status = unsafe { mufasa_monitor_state(self.monitor, state.as_mut_ptr()) };
+        assert_eq!(status, MufasaStatus::Ok);
+        // SAFETY: as above.
+        let state = unsafe { state.assume_init() };
+        Seen {
+            groups: [state.mot, state.plan].map(group_state),
+            hold_until_ns: (state.has_hold != 0).then_some(state.hold_until.ns),
+            dropped: reason(actions.dropped),
+            actions: taken(&actions),
+            decision,
+        }
+    }
+
+    fn cycle(&mut self, now: MufasaTime, measured: &Measured) -> (Decided, MufasaActions) {
+        let Measured { ego, trajectory, tracks, detections, lead, grid } = measured;
+        let items: Vec<_> = tracks.iter().flat_map(|it| &it.items).map(track).collect();
+        let tracks = tracks.as_ref().map(|it: &TrackList| track_list(it.stamp_ns, &items));
+        let points: Vec<_> = trajectory.iter().flat_map(|it| &it.points).map(point).collect();
+        let trajectory = trajectory.as_ref().map(|it: &Trajectory| path(it.stamp_ns, &points));
+        let detection =
+            |it: &Detection| same!(it => MufasaDetection { x, y, cos, sin, length, width });
+        let seen: Vec<_> = detections.iter().flat_map(|it| &it.items).map(detection).collect();
+        let detections = detections.as_ref().map(|it| MufasaDetectionList {
+            stamp: time(it.stamp_ns),
+            items: seen.as_ptr(),
+            items_len: seen.len(),
+        });
+        let lead = lead.as_ref().map(|Lead { stamp_ns, gap, speed }| MufasaLead {
+            stamp: time(*stamp_ns),
+            gap: MufasaGap { between_bumpers: *gap },
+            speed: *speed,
+        });
+        let grid = grid.as_ref().map(|it: &Grid| {
+            let unknown = it.unknown.as_ref();
+            same!(it => MufasaGrid { x, y, cos, sin, resolution, width, height }
+                stamp: time(it.stamp_ns),
+                occupied: it.occupied.as_ptr(),
+                occupied_len: it.occupied.len(),
+                unknown: unknown.map_or(null(), Vec::as_ptr),
+                unknown_len: unknown.map_or(0, Vec::len))
+        });
+        let inputs = MufasaMonitorInputs {
+            ego: same!(ego => MufasaEgo { x, y, cos, sin, speed, length, width, center_offset }),
+            detections: detections.as_ref().map_or(null(), from_ref),
+            lead: lead.as_ref().map_or(null(), from_ref),
+            grid: grid.as_ref().map_or(null(), from_ref),
+            local_tracks: tracks.as_ref().map_or(null(), from_ref),
+            local_trajectory: trajectory.as_ref().map_or(null(), from_ref),
+        };
+        let mut decision = MaybeUninit::<MufasaDecision>::uninit();
+        let to = decision.as_mut_ptr();
+        // SAFETY: what is pointed to lives longer than the call.
+        let status = unsafe { mufasa_monitor_cycle(self.monitor, now, &raw const inputs, to) };
+        // SAFETY: it is written whatever the status.
+        let decision = unsafe { decision.assume_init() };
+        assert!(status == MufasaStatus::Ok || decision.report.verdict == MufasaVerdict::Error);
+        // SAFETY: null, or valid until the next call.
+        let tracks = unsafe { decision.tracks.as_ref() };
+        // SAFETY: as above.
+        let trajectory = unsafe { decision.trajectory.as_ref() };
+        let decided = Decided {
+            failed: match decision.report.verdict {
+                MufasaVerdict::Safe => Ok(MufasaFailedStage::None),
+                MufasaVerdict::Unsafe => Ok(decision.report.failed_stage),
+                MufasaVerdict::Error => Err(()),
+            },
+            tracks_ns: tracks.map(|it| it.stamp.ns),
+            trajectory_ns: trajectory.map(|it| it.stamp.ns),
+            brake_by_ns: Some(decision.brake_by.ns).filter(|it| *it != i64::MAX),
+        };
+        (decided, decision.actions)
+    }
+}
+
+/// An event that needs no more than this.
+fn plain(t: MufasaTime, kind: &EventKind) -> MufasaEvent {
+    let set = |Groups { mot, plan }: Groups| u32::from(mot) | u32::from(plan) << 1;
+    let one = |group: Group| set(Groups { mot: group == Group::Mot, plan: group == Group::Plan });
+    let (event_type, station, group, groups, session) = match *kind {
+        EventKind::Offer { station, groups } => (Kind::Offer, station, 0, set(groups), 0),
+        EventKind::Withdraw { station } => (Kind::Withdraw, station, 0, 0, 0),
+        EventKind::Lost { station } => (Kind::Lost, station, 0, 0, 0),
+        EventKind::Area { groups } => (Kind::Area, 0, 0, set(groups), 0),
+        EventKind::Tick => (Kind::Tick, 0, 0, 0, 0),
+        EventKind::Confirm { station, group, session } => {
+            (Kind::Confirm, station, one(group), 0, session)
+        }
+        EventKind::Reject { station, group, session } => {
+            (Kind::Reject, station, one(group), 0, session)
+        }
+        EventKind::Tracks { .. } | EventKind::Trajectory { .. } | EventKind::Cycle { .. } => {
+            unreachable!("these have contents")
+        }
+    };
+    let (event_type, generated, safe) = (event_type as u32, time(0), 0);
+    let sessions = [0; 2];
+    MufasaEvent { t, event_type, group, groups, safe, station, session, sessions, generated }
+}
+
+fn group_state(it: MufasaGroupState) -> GroupState {
+    let MufasaGroupState { kind, station, session, deadline, .. } = it;
+    match kind {
+        MufasaGroupStateKind::Local => GroupState::Local,
+        MufasaGroupStateKind::Requested => {
+            GroupState::Requested { station, session, deadline_ns: deadline.ns }
+        }
+        MufasaGroupStateKind::Remote => GroupState::Remote { station, session },
+    }
+}
+
+fn reason(it: MufasaDropReason) -> Option<Dropped> {
+    Some(match it {
+        MufasaDropReason::None => return None,
+        MufasaDropReason::TooLong => Dropped::DoesNotFit,
+        MufasaDropReason::OtherSession => Dropped::OtherSession,
+        MufasaDropReason::FromTheFuture
+        | MufasaDropReason::Late
+        | MufasaDropReason::AfterSilence => Dropped::Late,
+        MufasaDropReason::TooOld => Dropped::Stale,
+        MufasaDropReason::Starved => Dropped::Starved,
+        MufasaDropReason::NotNewer => Dropped::Repeated,
+    })
+}
+
+fn taken(actions: &MufasaActions) -> Vec<Action> {
+    let action = |it: &MufasaAction| {
+        let (station, session) = (it.station, it.session);
+        let group = match it.group {
+            MufasaGroup::Mot => Group::Mot,
+            MufasaGroup::Plan => Group::Plan,
+        };
+        match it.action_type {
+            MufasaActionType::Request => Action::Request { station, group, session },
+            MufasaActionType::Release => Action::Release { station, group, session },
+            MufasaActionType::Activate => Action::Activate(group),
+            MufasaActionType::Deactivate => Action::Deactivate(group),
+            MufasaActionType::Drop => Action::Drop(group),
+        }
+    };
+    actions.items[..actions.len].iter().map(action).collect()
+}
+
+/// What the model says of that.
+fn expected(answer: Answer) -> Seen {
+    let stage = |failed| match failed {
+        None => MufasaFailedStage::None,
+        Some(FailedStage::Input) => MufasaFailedStage::Input,
+        Some(FailedStage::NoObstacleCheck) => MufasaFailedStage::NoObstacleCheck,
+        Some(FailedStage::Stage(Stage::I)) => MufasaFailedStage::I,
+        Some(FailedStage::Stage(Stage::Ii)) => MufasaFailedStage::Ii,
+        Some(FailedStage::Stage(Stage::Iii)) => MufasaFailedStage::Iii,
+        Some(FailedStage::Stage(Stage::Iv)) => MufasaFailedStage::Iv,
+        Some(FailedStage::Stage(Stage::V)) => MufasaFailedStage::V,
+    };
+    let decided = |Decision { report, tracks, trajectory, brake_by_ns, brake: _ }| Decided {
+        failed: report.map(|report| stage(report.failed_stage)).map_err(drop),
+        tracks_ns: tracks.map(|it: Verified| it.stamp_ns),
+        trajectory_ns: trajectory.map(|it: Verified| it.stamp_ns),
+        brake_by_ns,
+    };
+    Seen {
+        groups: [answer.mot, answer.plan],
+        hold_until_ns: answer.hold_until_ns,
+        actions: answer.actions,
+        dropped: answer.dropped.map(|it| if it == Dropped::Older { Dropped::Repeated } else { it }),
+        decision: answer.decision.map(decided),
+    }
+}
+
+/// Choices for a sequence.
+fn tape(seed: u64) -> Vec<u32> {
+    let mut state = seed;
+    let next = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        u32::try_from(state >> 32).expect("32 bits")
+    };
+    std::iter::repeat_with(next).take(TAPE).collect()
+}
+
+/// MON-01, MON-08, MON-20, MON-40, MON-45.
+#[test]
+fn the_monitor_in_c_answers_as_the_model() {
+    let mut count = BTreeMap::<&str, u32>::new();
+    let mut saw = |what, is: bool| *count.entry(what).or_default() += u32::from(is);
+    for (profile, seed) in
+        (0..SEQUENCES).flat_map(|seed| [(Profile::PAPER, seed), (Profile::HARDENED, seed)])
+    {
+        let tape = tape(seed);
+        let (mut script, drawn) = Script::new(&tape, profile);
+        let settings = Settings { supervise_local: false, stall: None, ..drawn };
+        let mut model = Monitor::new(settings.clone(), route(), Reading::Exact).expect("settings");
+        let mut in_c = InC::new(&settings, &route());
+        for step in 0..STEPS {
+            let mut event = script.event();
+            if let EventKind::Cycle { measured } = &mut event.kind
+                && model.requester().configuration().remote().mot
+            {
+                let most = usize::try_from(settings.memory.tracks).expect("places");
+                let left_out = measured.tracks.take_if(|it| it.items.len() > most);
+                saw("own tracks left out", left_out.is_some());
+            }
+            let answer = model.step(event.clone());
+            let (found, wanted) = (in_c.step(&event), expected(answer.clone()));
+            assert_eq!(found, wanted, "{profile:?}, seed {seed}, step {step}: {event:?}");
+            script.take(&event, &answer);
+            saw("steps", true);
+            saw("dropped", wanted.dropped.is_some());
+            let Some(decided) = wanted.decision else { continue };
+            saw("errors", decided.failed.is_err());
+            saw("unsafe", decided.failed.is_ok_and(|it| it != MufasaFailedStage::None));
+            saw("tracks", decided.tracks_ns.is_some());
+            saw("trajectories", decided.trajectory_ns.is_some());
+            saw("times to brake by", decided.brake_by_ns.is_some());
+        }
+    }
+    println!("{count:?}");
+    let left_out = count.remove("own tracks left out");
+    assert!(count.values().all(|it| *it >= 50), "{count:?}");
+    assert!(count["steps"] >= 10_000 && left_out <= Some(50), "{left_out:?}: {count:?}");
+}
