@@ -13,8 +13,8 @@ Profile = Literal["paper", "hardened"]
 Configuration = Literal["Local", "MotRemote", "AllRemote", "PlanRemote"]
 Group = Literal["mot", "plan"]
 DropReason = Literal[
-    "too_long",
     "other_session",
+    "too_long",
     "from_the_future",
     "late",
     "too_old",

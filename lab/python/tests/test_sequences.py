@@ -1,0 +1,149 @@
+"""The sequences of ``vectors/monitor`` through ``Monitor``: everything of a state that it shows.
+
+It shows neither that a group is requested nor ``given_back_ns`` and ``brake``, and has no ``stall``, no memory of a size and no
+period between microseconds: sequences with these are left out, and counted."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from datetime import timedelta
+from typing import Any
+
+import mufasa
+import pytest
+from conftest import ROOT
+from mufasa import Detections, Gap, Lead, Monitor, Time, Tracks, Trajectory
+from test_monitor import grid_map, ns
+
+MEMORY = {"tracks": 1024, "detections": 2048, "cross_sections": 8192}
+REASONS = {
+    "too_long": "does_not_fit",
+    "too_old": "stale",
+    "from_the_future": "late",
+    "after_silence": "late",
+    # Of one that is not newer Python does not say whether it is older.
+    "not_newer": "repeated",
+    "older": "repeated",
+}
+
+
+def left_out(record: dict[str, Any]) -> str | None:
+    """What of a sequence cannot be said in Python."""
+    if record["stall"] is not None:
+        return "stall"
+    if record["memory"] != MEMORY:
+        return "memory"
+    return "period" if record["period_ns"] % 1000 else None
+
+
+def started(record: dict[str, Any]) -> Monitor:
+    period = timedelta(microseconds=record["period_ns"] // 1000)
+    given = {key: record[key] for key in ("profile", "parameters")}
+    monitor = Monitor(period, sessions_before=record["last_session"], **given)
+    monitor.set_route(record["route"]["stations"], closed=record["route"]["closed"])
+    return monitor
+
+
+def action(it: mufasa.Action) -> tuple[Any, ...]:
+    if isinstance(it, mufasa.Drop):
+        return "drop", it.group, REASONS.get(it.why, it.why)
+    return (type(it).__name__.lower(), *it)
+
+
+def wanted_action(it: dict[str, Any], why: str | None) -> tuple[Any, ...]:
+    if "send" in it:
+        return it["send"], it["station"], it["group"], it["session"]
+    [(kind, group)] = it.items()
+    return (kind, group, REASONS.get(why or "", why)) if kind == "drop" else (kind, group)
+
+
+def taken(monitor: Monitor, event: dict[str, Any]) -> tuple[Any, Any]:
+    """The actions of an event, and the decision of a cycle."""
+    kind, now = event["type"], ns(event["t_ns"])
+    if kind in ("tracks", "trajectory"):
+        data, list_name = event[kind], "items" if kind == "tracks" else "points"
+        of = {key: event[key] for key in ("station", "session")}
+        of |= {"generated": ns(event["generated_ns"]), "stamp": ns(data["stamp_ns"])}
+        return getattr(monitor, kind)(now, **of, **{list_name: data[list_name]}), None
+    if kind == "cycle":
+        seen = event["measured"]
+        given: dict[str, Any] = {}
+        for name, key, make, items in (
+            ("detections", "detections", Detections, "items"),
+            ("local_tracks", "tracks", Tracks, "items"),
+            ("local_trajectory", "trajectory", Trajectory, "points"),
+        ):
+            if seen.get(key) is not None:
+                given[name] = make(ns(seen[key]["stamp_ns"]), seen[key][items])
+        if (lead := seen.get("lead")) is not None:
+            gap = Gap.between_bumpers(lead["gap"])
+            given["lead"] = Lead(ns(lead["stamp_ns"]), gap, lead["speed"])
+        if seen.get("grid") is not None:
+            given["grid"] = grid_map(seen["grid"])
+        decision = monitor.cycle(now, seen["ego"], **given)
+        return decision.actions, decision
+    words = [event[key] for key in ("station", "group", "groups", "session") if key in event]
+    return getattr(monitor, kind)(now, *words), None
+
+
+def decided(decision: mufasa.Decision) -> dict[str, Any]:
+    error, safe, report = decision.error, decision.safe, decision.report
+    shown: dict[str, Any] = {"verdict": "safe" if safe else "unsafe"}
+    shown["failed_stage"] = None if report is None else report.failed_stage
+    shown["error"] = {"field": error.field, "index": error.index} if error else None
+    for key in ("tracks", "trajectory"):
+        it = getattr(decision, key) if safe else None
+        shown[key] = it and (it.stamp.nanoseconds, it.station)
+    by = decision.trajectory and decision.trajectory.brake_by if safe else None
+    return {**shown, "brake_by_ns": by and by.nanoseconds}
+
+
+def wanted(decision: dict[str, Any]) -> dict[str, Any]:
+    out = {
+        key: decision[key] and (decision[key]["stamp_ns"], decision[key]["station"])
+        for key in ("tracks", "trajectory")
+    }
+    keys = ("verdict", "failed_stage", "brake_by_ns")
+    return {**{key: decision[key] for key in keys}, "error": decision.get("error"), **out}
+
+
+def play(monitor: Monitor, event: dict[str, Any], state: dict[str, Any]) -> None:
+    actions, decision = taken(monitor, event)
+    shown = None if decision is None else decided(decision)
+    expected = state["decision"] and wanted(state["decision"])
+    assert shown == expected
+    found = [action(it) for it in actions]
+    assert found == [wanted_action(it, state["dropped"]) for it in state["actions"]]
+    hold = monitor.hold_until
+    assert (hold and hold.nanoseconds) == state["hold_until_ns"]
+    for group in ("mot", "plan"):
+        session = monitor.session_of(group)
+        remote = f"remote:{session.station}" if session else "local"
+        assert remote == (state[group] if state[group].startswith("remote") else "local")
+
+
+def test_every_sequence_is_answered_as_its_vector_says() -> None:
+    count: Counter[str] = Counter()
+    for file in sorted((ROOT / "vectors/monitor").glob("*.jsonl")):
+        for vector in map(json.loads, file.read_text().splitlines()):
+            record, expected = vector["input"], vector["expect"]
+            if (why := left_out(record)) is not None:
+                count[f"left out: {why}"] += 1
+                continue
+            # Python refuses a period of 0, as the implementation.
+            if "error" in expected or record["period_ns"] == 0:
+                with pytest.raises(mufasa.InvalidInput):
+                    started(record)
+                count["refused"] += 1
+                continue
+            monitor = started(record)
+            for at, (event, state) in enumerate(zip(record["events"], expected["states"])):
+                try:
+                    play(monitor, event, state)
+                except AssertionError as error:
+                    raise AssertionError(f"{vector['id']}, event {at}: {error}") from error
+                count["events"] += 1
+            count["played"] += 1
+    print(dict(count))
+    assert count["played"] >= 120 and count["refused"] >= 10, count
