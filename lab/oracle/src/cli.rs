@@ -315,13 +315,12 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
 
 /// Parts of an experiment, or of a campaign of `conform`.
 fn merge(arguments: &MergeArguments, out: &mut impl Write) -> io::Result<u8> {
-    let MergeArguments { parts, map, out: folder, into } = arguments;
+    let MergeArguments { parts, map, out: folder } = arguments;
     if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {
         return evaluate::shards::merge(arguments, out, &mut io::stderr());
     }
-    let given = [("--into", into, "table for a document"), ("--map", map, "map")];
-    if let Some((name, _, what)) = given.iter().find(|it| it.1.is_some()) {
-        return Ok(refused(&format!("{name}: a campaign of conform has no {what}")));
+    if map.is_some() {
+        return Ok(refused("--map: a campaign of conform has no map"));
     }
     conformed(kit::merge(parts, folder.as_ref(), out), out)
 }

@@ -33,14 +33,12 @@ use mufasa_sim::experiment::made::{Campaign, Experiment};
 use mufasa_sim::experiment::row::Row;
 use mufasa_sim::experiment::select::{Options, Select};
 use mufasa_sim::map::Town;
-use mufasa_sim::map::id::MapId;
 
 use self::arguments::{Asked, EvaluateArguments};
 use self::codes::{DISAGREES, FAILED, refused, say};
 use self::report::{FailedRun, Leaves, REPLAYS, Section};
 use self::tables::named;
 use self::text::{csv, json, said};
-use crate::document;
 use crate::rows::{Column, Rows};
 
 /// One cycle of so many is checked by the model if not all are.
@@ -86,9 +84,8 @@ pub fn run(
         ..Select::only(size.only.as_deref())
     };
     let task = Task { sized: &|defaults| size.options(defaults), select: &select };
-    let prepared = prepared(size.out.as_deref()).and_then(|()| maps::of(size.map.as_deref()));
+    let prepared = prepared(size.out.as_deref(), "").and_then(|()| maps::of(size.map.as_deref()));
     let made = prepared.and_then(|town| {
-        document::has_place(size.into.as_deref(), &table_name(name, town.id))?;
         let shown = named(name).ok_or_else(|| format!("{name}: no experiment"))?;
         in_threads(size.threads, &town, &task, shown)
     });
@@ -98,16 +95,15 @@ pub fn run(
         }
         (made, ..) => {
             let made = made.map(|results| (results, select));
-            ended(made, size.out.as_deref(), size.into.as_deref(), out, err)
+            ended(made, size.out.as_deref(), out, err)
         }
     }
 }
 
-/// Writes what was made: the table, and files and a document where they are asked for.
+/// Writes what was made: the table, and files where they are asked for.
 fn ended(
     made: Result<(Results, Select<'_>), String>,
     folder: Option<&Path>,
-    document: Option<&Path>,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
@@ -120,7 +116,7 @@ fn ended(
     write!(out, "{}", results.table.text(None))?;
     tell(&checks, out, err)?;
     let code = code(&results, &checks);
-    match leaves(results, &checks, drawn, folder).write(folder, document) {
+    match leaves(results, &checks, drawn, folder).write(folder) {
         Ok(files) => say(&files, out).map(|()| code),
         Err(message) => Ok(refused(&message, err)),
     }
@@ -163,18 +159,22 @@ fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job>
         .map_or_else(Vec::new, |(experiment, _)| experiment.jobs(town, on(experiment.options)))
 }
 
-/// Whether files can be written into the folder.
-fn prepared(folder: Option<&Path>) -> Result<(), String> {
+/// Whether files can be written into this folder in the folder.
+fn prepared(folder: Option<&Path>, within: &str) -> Result<(), String> {
     let Some(folder) = folder else { return Ok(()) };
     let say = |error| format!("{}: cannot be written to: {error}", folder.display());
-    files::prepare(folder).map_err(say)
+    files::prepare(&folder.join(within)).map_err(say)
+}
+
+/// A pool of so many threads; of one for each processor, if nothing is said.
+fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, String> {
+    let threads = usize::from(threads.unwrap_or(0));
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)
 }
 
 /// In a pool of so many threads.
 fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, shown: Shown) -> Made {
-    let threads = usize::from(threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let results = pool.map_err(said)?.install(|| made(shown, task, town))?;
+    let results = pool(threads)?.install(|| made(shown, task, town))?;
     if let (0, Some(only)) = (results.runs, task.select.only) {
         return Err(format!(
             "{only}: no run of {} has such an id; one is its experiment, variant, what is special, route \
@@ -263,12 +263,7 @@ fn leaves<'c>(
     let texts = texts.map(|(end, text)| (PathBuf::from(format!("{name}{end}")), text));
     let pages = drawn.into_iter().map(|(id, page)| (page_of(&id), page));
     let files = texts.into_iter().chain(pages).collect();
-    Leaves { table, place: table_name(name, map), files, section: Some(section) }
-}
-
-/// What the table of an experiment is called in a document.
-fn table_name(name: &str, map: MapId) -> String {
-    format!("mufasa evaluate {name}{}", maps::option(map))
+    Leaves { table, files, section: Some(section) }
 }
 
 fn bar(name: &str) -> ProgressBar {

@@ -91,7 +91,7 @@ pub struct SizeArguments {
     pub only: Option<String>,
     /// Only one of N parts of the runs, such as 2/8, for other machines to make the others; `mufasa merge` puts
     /// the parts together.
-    #[arg(long, value_name = "I/N", value_parser = shard, requires = "out", conflicts_with_all = ["only", "into"])]
+    #[arg(long, value_name = "I/N", value_parser = shard, requires = "out", conflicts_with = "only")]
     pub shard: Option<Shard>,
     /// Check every cycle that the stages decide by the exact model, not one in a hundred.
     #[arg(long)]
@@ -104,9 +104,6 @@ pub struct SizeArguments {
     /// report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE", conflicts_with = "only")]
-    pub into: Option<PathBuf>,
 }
 
 impl SizeArguments {

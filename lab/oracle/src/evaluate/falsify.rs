@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use indicatif::ProgressBar;
 use mufasa_drives::progress;
-use mufasa_records::files;
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::checks::Checks;
@@ -26,18 +25,19 @@ use mufasa_sim::run::{End, RunError};
 use serde::Deserialize;
 
 use super::codes::{FAILED, INTERRUPTED, refused, say};
-use super::maps;
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
 use super::replay::{kind, variant};
 use super::report::{FailedRun, Leaves, Section};
 use super::tables;
 use super::text::{csv, json, said};
-use crate::document;
+use super::{maps, pool, prepared};
 use crate::limits::whole;
 
 /// Runs if nothing is said.
 const RUNS: u64 = 400;
+/// The folder of collisions.
+const FOUND: &str = "found";
 
 /// What is searched, and for how long.
 #[derive(Args, Clone, Debug)]
@@ -47,8 +47,8 @@ is little time left to react. Counted is every collision that the same run does 
 shrunk and kept is one of each explanation: one that has all kinds of attacks of a kept one, offered the same, is
 only counted. `mufasa evaluate replay FILE` draws a kept one.
 
-An interrupt ends the search: what was found until then is written and called interrupted, and no document is
-changed. A second one ends it at once.
+An interrupt ends the search: what was found until then is written and called interrupted. A second one ends it at
+once.
 
 Exit codes: 0 done, 1 a collision was found in the hardened profile, 2 bad input or a file
 cannot be written, 130 interrupted.")]
@@ -64,7 +64,7 @@ pub struct FalsifyArguments {
     pub rounds: Option<u64>,
     /// Only one of N parts of the rounds, such as 2/8, for other machines to make the others; `mufasa merge` puts
     /// the parts together.
-    #[arg(long, value_name = "I/N", value_parser = shard, requires_all = ["out", "rounds"], conflicts_with = "into")]
+    #[arg(long, value_name = "I/N", value_parser = shard, requires_all = ["out", "rounds"])]
     pub shard: Option<Shard>,
     /// What is checked of remote data.
     #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
@@ -88,9 +88,6 @@ pub struct FalsifyArguments {
     /// each collision into its folder found.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE")]
-    pub into: Option<PathBuf>,
 }
 
 /// Shows how far it is, and says when the time is over.
@@ -140,8 +137,7 @@ pub fn run(
     }
     let made =
         search(arguments, stop, |town, options, caller| experiment(town, options.clone(), caller));
-    let places = [&arguments.out, &arguments.into].map(Option::as_deref);
-    ended(made.map(|(town, _, made)| (town, made)), places, out, err)
+    ended(made.map(|(town, _, made)| (town, made)), arguments.out.as_deref(), out, err)
 }
 
 /// Puts parts together: what comes out is, byte for byte, what one run of all rounds would write. What was found is
@@ -152,11 +148,10 @@ pub(super) fn merge(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let places = [&arguments.out, &arguments.into].map(Option::as_deref);
+    let folder = arguments.out.as_deref();
     let made = parts::read(&arguments.parts).and_then(|whole: Part<Options>| {
-        prepared(places[0])?;
+        prepared(folder, FOUND)?;
         let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
-        document::has_place(places[1], &command(&whole.options))?;
         let mut made = Falsified::nothing(whole.options);
         for number in 0..made.options.rounds.unwrap_or(0) {
             let id = id(number);
@@ -168,19 +163,18 @@ pub(super) fn merge(
         }
         Ok((town, made))
     });
-    ended(made, places, out, err)
+    ended(made, folder, out, err)
 }
 
 /// Writes the table, the collisions and the files. The exit code.
 fn ended(
     made: Result<(Town, Falsified), String>,
-    places: [Option<&Path>; 2],
+    folder: Option<&Path>,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let written = made.and_then(|(town, made)| {
-        let document = places[1].filter(|_| !made.interrupted);
-        let files = leaves(&town, &made, places[0].is_some())?.write(places[0], document)?;
+        let files = leaves(&town, &made, folder.is_some())?.write(folder)?;
         Ok((made, files))
     });
     let (made, files) = match written {
@@ -201,7 +195,7 @@ fn ended(
     if made.interrupted {
         writeln!(
             out,
-            "INTERRUPTED: this is what was found until then, perhaps not shrunk to its end; no document was changed"
+            "INTERRUPTED: this is what was found until then, perhaps not shrunk to its end"
         )?;
     }
     for found in &made.found {
@@ -231,7 +225,7 @@ fn search<M: Send>(
     make: impl FnOnce(&Town, &Options, &Bar<'_>) -> Result<M, RunError> + Send,
 ) -> Result<(Town, Options, M), String> {
     let &FalsifyArguments { profile, vehicles, seed, minutes, rounds, .. } = arguments;
-    prepared(arguments.out.as_deref())?;
+    prepared(arguments.out.as_deref(), FOUND)?;
     let town = maps::of(arguments.map.as_deref())?;
     let map = town.id;
     let is_bounded = minutes.is_some() || rounds.is_some();
@@ -239,7 +233,6 @@ fn search<M: Send>(
     let vehicles = vehicles.into();
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
     let options = Options { variant: profile, kinds, runs, rounds, vehicles, seed, map };
-    document::has_place(arguments.into.as_deref(), &command(&options))?;
     let template = match runs {
         Some(_) => "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}",
         None => "{prefix} {pos} runs in {elapsed}; {msg}",
@@ -248,18 +241,9 @@ fn search<M: Send>(
     bar.set_prefix(NAME);
     let until = minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
     let caller = Bar { shown: bar, until, stop };
-    let threads = usize::from(arguments.threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
-    let made = pool.install(|| make(&town, &options, &caller)).map_err(said);
+    let made = pool(arguments.threads)?.install(|| make(&town, &options, &caller)).map_err(said);
     caller.shown.finish_and_clear();
     Ok((town, options, made?))
-}
-
-/// Whether collisions can be written into the folder.
-fn prepared(folder: Option<&Path>) -> Result<(), String> {
-    let Some(folder) = folder else { return Ok(()) };
-    let say = |error| format!("{}: cannot be written to: {error}", folder.display());
-    files::prepare(&folder.join("found")).map_err(say)
 }
 
 /// The name of a round in a part.
@@ -308,13 +292,13 @@ fn leaves(town: &Town, made: &Falsified, draws: bool) -> Result<Leaves<'static>,
             files.push((file_of(found, "html"), page));
         }
     }
-    Ok(Leaves { table, place: command(&made.options), files, section: Some(section(made)) })
+    Ok(Leaves { table, files, section: Some(section(made)) })
 }
 
 /// The file of a collision in the folder of the search: all about it, or its page.
 fn file_of(found: &Found, ending: &str) -> PathBuf {
     let after = if found.is_after() { "-after" } else { "" };
-    Path::new("found").join(format!("{}{after}.{ending}", found.case.name()))
+    Path::new(FOUND).join(format!("{}{after}.{ending}", found.case.name()))
 }
 
 /// The command, but for how long and from which seed.

@@ -21,7 +21,4 @@ pub struct MergeArguments {
     /// are beside the parts), and all of it in report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE")]
-    pub into: Option<PathBuf>,
 }

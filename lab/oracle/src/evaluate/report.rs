@@ -11,7 +11,6 @@ use mufasa_records::files;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::run::End;
 
-use crate::document;
 use crate::rows::Rows;
 
 /// The name of the page.
@@ -66,8 +65,6 @@ pub(super) struct Section<'s> {
 /// What an experiment leaves.
 pub(super) struct Leaves<'s> {
     pub(super) table: Rows,
-    /// What the table is called in a document.
-    pub(super) place: String,
     /// Names of files, and their texts.
     pub(super) files: Vec<(PathBuf, String)>,
     /// Of the report; none: it has none.
@@ -75,13 +72,10 @@ pub(super) struct Leaves<'s> {
 }
 
 impl Leaves<'_> {
-    /// Writes all files into the folder, each there completely or not at all, and the table into the document. What was
-    /// written. Errors: in words, with the file.
-    pub(super) fn write(
-        &self,
-        folder: Option<&Path>,
-        document: Option<&Path>,
-    ) -> Result<Vec<PathBuf>, String> {
+    /// Writes all files into the folder, each there completely or not at all. What was written. Errors: in words, with
+    /// the file.
+    pub(super) fn write(&self, folder: Option<&Path>) -> Result<Vec<PathBuf>, String> {
+        let Some(folder) = folder else { return Ok(Vec::new()) };
         let mut written = Vec::new();
         let mut wrote = |file: PathBuf, done: io::Result<()>| match done {
             Ok(()) => {
@@ -90,22 +84,16 @@ impl Leaves<'_> {
             }
             Err(error) => Err(format!("{}: cannot be written: {error}", file.display())),
         };
-        if let Some(folder) = folder {
-            for (name, text) in &self.files {
-                let file = folder.join(name);
-                let made = file.parent().map_or(Ok(()), fs::create_dir_all);
-                let done = made.and_then(|()| files::write(&file, text));
-                wrote(file, done)?;
-            }
-            if let Some(section) = &self.section {
-                let file = folder.join(FILE);
-                let done = section.write(&file, &self.table);
-                wrote(file, done)?;
-            }
+        for (name, text) in &self.files {
+            let file = folder.join(name);
+            let made = file.parent().map_or(Ok(()), fs::create_dir_all);
+            let done = made.and_then(|()| files::write(&file, text));
+            wrote(file, done)?;
         }
-        if let Some(file) = document {
-            let done = document::write(file, &self.place, &self.table.markdown());
-            wrote(file.to_owned(), done)?;
+        if let Some(section) = &self.section {
+            let file = folder.join(FILE);
+            let done = section.write(&file, &self.table);
+            wrote(file, done)?;
         }
         Ok(written)
     }

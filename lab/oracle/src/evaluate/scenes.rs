@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use mufasa_drives::progress;
-use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::scenes::{NAME, Options, Scenes};
 use mufasa_sim::vehicle::TAU_S;
@@ -15,8 +14,8 @@ use super::codes::{FAILED, refused, say};
 use super::replay::variant;
 use super::report::Leaves;
 use super::tables;
-use super::text::{csv, json, said};
-use crate::document;
+use super::text::{csv, json};
+use super::{pool, prepared};
 use crate::limits::{number, whole};
 
 /// Scenes if nothing is said, and those that are made at once where a time is said.
@@ -63,9 +62,6 @@ pub struct ScenesArguments {
     /// for `mufasa check` and `mufasa oracle`, into its folder collisions.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE", conflicts_with = "only")]
-    pub into: Option<PathBuf>,
 }
 
 /// Searches, writes the table to `out`, and files. The exit code. Errors: those of writing to `out`.
@@ -86,12 +82,8 @@ pub fn run(
 
 fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String> {
     let &ScenesArguments { seed, profile, tau, .. } = arguments;
-    if let Some(folder) = &arguments.out {
-        let say = |error| format!("{}: cannot be written to: {error}", folder.display());
-        files::prepare(&folder.join(FOUND)).map_err(say)?;
-    }
+    prepared(arguments.out.as_deref(), FOUND)?;
     let options = Options { profile, tau_s: tau, seed, only: arguments.only.clone() };
-    document::has_place(arguments.into.as_deref(), &command(&options))?;
     let scenes = arguments.scenes.unwrap_or(SCENES);
     let until =
         arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
@@ -100,10 +92,8 @@ fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String>
         None => progress::bar(scenes, "{prefix} {bar:30} {pos}/{len} scenes, {left} left"),
     };
     bar.set_prefix(NAME);
-    let threads = usize::from(arguments.threads.unwrap_or(0));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
     let mut made = Scenes::nothing(options);
-    pool.install(|| {
+    pool(arguments.threads)?.install(|| {
         let done = || bar.inc(1);
         match until {
             None => made.add(scenes, &done),
@@ -118,16 +108,8 @@ fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String>
     if made.runs.is_empty() {
         return Err(format!("{}: no scene has such kinds", arguments.only.join(", ")));
     }
-    let names = leaves(&made)?.write(arguments.out.as_deref(), arguments.into.as_deref())?;
+    let names = leaves(&made)?.write(arguments.out.as_deref())?;
     Ok((made, names))
-}
-
-/// What the table is called in a document.
-fn command(options: &Options) -> String {
-    match options.profile {
-        Variant::Hardened => format!("mufasa evaluate {NAME}"),
-        other => format!("mufasa evaluate {NAME} --profile {}", other.name()),
-    }
 }
 
 /// What a search leaves.
@@ -140,5 +122,5 @@ fn leaves(made: &Scenes) -> Result<Leaves<'static>, String> {
         (file, made.options.records(run.scene))
     });
     let files = texts.into_iter().chain(collisions).collect();
-    Ok(Leaves { table: tables::scenes(made), place: command(&made.options), files, section: None })
+    Ok(Leaves { table: tables::scenes(made), files, section: None })
 }

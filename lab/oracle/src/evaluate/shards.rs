@@ -13,10 +13,8 @@ use super::codes::refused;
 use super::merge::MergeArguments;
 use super::tables::{EXPERIMENTS, named};
 use super::{
-    Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared, table_name,
-    tell,
+    Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared, tell,
 };
-use crate::document;
 
 /// Writes what was kept of the runs of a part, as a file that cannot be taken for the whole.
 pub(super) fn write(
@@ -59,7 +57,7 @@ pub fn merge(
     }
     let folder = arguments.out.as_deref();
     let read = |()| parts::read(&arguments.parts);
-    let whole = match prepared(folder).and_then(read) {
+    let whole = match prepared(folder, "").and_then(read) {
         Ok(whole) => whole,
         Err(message) => return Ok(refused(&message, err)),
     };
@@ -74,11 +72,10 @@ pub fn merge(
     let made = shown.and_then(|shown| {
         let task = Task { sized: &|_| options, select: &select };
         let town = maps::same(arguments.map.as_deref(), options.map, "the parts")?;
-        document::has_place(arguments.into.as_deref(), &table_name(shown.0.name, town.id))?;
         in_threads(None, &town, &task, shown)
     });
     let made = made.map(|results| (results, select));
-    ended(made, folder, arguments.into.as_deref(), out, err)
+    ended(made, folder, out, err)
 }
 
 /// The pages of runs that failed, by their ids, as far as they are still beside the parts.

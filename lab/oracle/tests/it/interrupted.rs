@@ -34,15 +34,10 @@ fn interrupted(folder: &Path, signal: &str, more: &[&str]) -> String {
 }
 
 #[test]
-fn an_interrupted_search_leaves_what_it_found_and_is_put_into_no_document() {
+fn an_interrupted_search_leaves_what_it_found() {
     let folder = folder("whole");
-    let place = "<!-- mufasa evaluate falsify --profile sofof: begin -->\n\nold\n\n\
-                 <!-- mufasa evaluate falsify --profile sofof: end -->\n";
-    fs::write(folder.join("page.md"), place).expect("it can be written");
-    let told =
-        interrupted(&folder, "-INT", &["--minutes", "60", "--out", "left", "--into", "page.md"]);
+    let told = interrupted(&folder, "-INT", &["--minutes", "60", "--out", "left"]);
     assert!(told.contains(" empty-tracks "), "{told}");
-    assert_eq!(fs::read_to_string(folder.join("page.md")).expect("it is there"), place);
     let text = |name: &str| fs::read_to_string(folder.join("left").join(name)).expect("written");
     let made: Value = serde_json::from_str(&text("falsify.json")).expect("JSON");
     assert_eq!(made["interrupted"], true);

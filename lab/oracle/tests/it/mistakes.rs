@@ -116,13 +116,7 @@ fn arguments_that_make_no_sense_are_refused_with_their_limits() {
 fn a_document_without_the_place_is_refused_first() {
     let folder = folder("no-place");
     write(&folder, "page.md", "# A page\n");
-    for arguments in [
-        &["evaluate", "failures"][..],
-        &["evaluate", "falsify"],
-        &["evaluate", "scenes"],
-        &["explore", "--out", "tables"],
-        &["prove", "--out", "prove.json"],
-    ] {
+    for arguments in [&["explore", "--out", "tables"][..], &["prove", "--out", "prove.json"]] {
         for file in ["page.md", "gone.md"] {
             let told = said(&folder, &[arguments, &["--into", file]].concat());
             told.has(2, "", "");
