@@ -145,7 +145,7 @@ fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers>
     let report = exact.as_ref().ok()?;
     let answer = answer_of(answered)?;
     let Said::Verdict(said) = answer else { return None };
-    let told = match words::failed_witness(report) {
+    let told = match report.witness() {
         Some(witness) => {
             // A witness compares two numbers of several: the centres, not the sides, of rectangles.
             let near = MARGINS_M.into_iter().find(|it| is_within(cycle, answer, *it));
@@ -193,7 +193,7 @@ fn strictly(
     if report.failed_stage != Some(stage) {
         return None;
     }
-    let witness = words::failed_witness(&report)?;
+    let witness = report.witness()?;
     let what = format!(
         "passes; with a margin of {margin_m} m it would fail at {}: {}",
         name(Some(stage)),

@@ -2,11 +2,24 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// What an attacker does. Where both have an attack, "drive" and "loop" say how it is made in each.
 #[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    IntoStaticStr,
+    Serialize,
+    Deserialize,
+    JsonSchema,
 )]
+#[strum(serialize_all = "kebab-case")]
 #[serde(into = "&'static str", try_from = "String")]
 #[schemars(with = "String", extend("enum" = Self::IN_THE_LOOP.map(Self::name)))]
 pub enum Attack {
@@ -139,41 +152,8 @@ impl Attack {
     pub const PAPER: [Self; 3] = [Self::WrongMap, Self::EmptyTracks, Self::GhostTracks];
 
     /// Its name on the command line, in tables and in files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::WrongMap => "wrong-map",
-            Self::EmptyTracks => "empty-tracks",
-            Self::GhostTracks => "ghost-tracks",
-            Self::MissingTrack => "missing-track",
-            Self::CrossingStands => "crossing-stands",
-            Self::GhostInMean => "ghost-in-mean",
-            Self::FalseVelocities => "false-velocities",
-            Self::ExchangedPasts => "exchanged-pasts",
-            Self::Replay => "replay",
-            Self::Drift => "drift",
-            Self::StartsLate => "starts-late",
-            Self::EndsEarly => "ends-early",
-            Self::Backwards => "backwards",
-            Self::IntoLead => "into-lead",
-            Self::Swerve => "swerve",
-            Self::MadeUpLead => "made-up-lead",
-            Self::Delay => "delay",
-            Self::NotFinite => "not-finite",
-            Self::Flood => "flood",
-            Self::Slow => "slow",
-            Self::StampsAhead => "stamps-ahead",
-            Self::Silent => "silent",
-            Self::HeldBack => "held-back",
-            Self::FalseSizes => "false-sizes",
-            Self::Frozen => "frozen",
-            Self::Late => "late",
-            Self::TooFast => "too-fast",
-            Self::TakenPast => "taken-past",
-            Self::VelocityBias => "velocity-bias",
-            Self::PastGhost => "past-ghost",
-            Self::BlindDetectors => "blind-detectors",
-            Self::Slide => "slide",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 
     /// Its name in the closed loop before there was one list: ids of runs and kept files have it.
@@ -204,12 +184,6 @@ impl Attack {
             format!("{name}{end}")
         };
         id.split_inclusive(['/', '+']).map(word).collect()
-    }
-}
-
-impl From<Attack> for &'static str {
-    fn from(attack: Attack) -> Self {
-        attack.name()
     }
 }
 

@@ -1,18 +1,19 @@
 //! Why an attack changes nothing.
 
-use std::fmt;
 use std::path::Path;
 
 use mufasa_model::services::configuration::Configuration;
+use thiserror::Error;
 
 use crate::attacks::injection::Injection;
 use crate::drive::Stream;
 use crate::readers::error::ReadError;
 
 /// Why an attack leaves a drive as it is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum InjectError {
     /// No cycle is within its span.
+    #[error("attack {injection} s changes no cycle: the drive ends at {end_s} s")]
     Outside {
         /// The attack and its span.
         injection: Injection,
@@ -20,6 +21,10 @@ pub enum InjectError {
         end_s: f64,
     },
     /// The data that it changes are local wherever it would.
+    #[error(
+        "attack {injection} s changes no cycle: it is on received {}, which are local in {configuration:?}",
+        .injection.attack.data()
+    )]
     Local {
         /// The attack and its span.
         injection: Injection,
@@ -27,11 +32,16 @@ pub enum InjectError {
         configuration: Configuration,
     },
     /// There is nothing that it could change: the data are absent, or are as it would make them.
+    #[error(
+        "attack {injection} s changes no cycle: the received {} are absent, or as it would make them",
+        .injection.attack.data()
+    )]
     Unchanged {
         /// The attack and its span.
         injection: Injection,
     },
     /// A cycle cannot be read again.
+    #[error(transparent)]
     Unread(Box<ReadError>),
 }
 
@@ -53,28 +63,3 @@ impl InjectError {
         }
     }
 }
-
-impl fmt::Display for InjectError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Outside { injection, end_s } => {
-                write!(f, "attack {injection} s changes no cycle: the drive ends at {end_s} s")
-            }
-            Self::Local { injection, configuration } => write!(
-                f,
-                "attack {injection} s changes no cycle: it is on received {}, which are local in \
-                 {configuration:?}",
-                injection.attack.data()
-            ),
-            Self::Unread(error) => error.fmt(f),
-            Self::Unchanged { injection } => write!(
-                f,
-                "attack {injection} s changes no cycle: the received {} are absent, or as it \
-                 would make them",
-                injection.attack.data()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for InjectError {}

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use mufasa_model::input::cycle::Cycle;
+use thiserror::Error;
 
 use super::catalogue::Attack;
 
@@ -111,15 +112,19 @@ impl fmt::Display for Injection {
 }
 
 /// Why a text is no injection.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum ParseInjectionError {
     /// The name is none of [`Attack::ON_DRIVES`].
+    #[error("`{}` is no attack; known are {}", .0, Attack::ON_DRIVES.map(Attack::name).join(", "))]
     UnknownAttack(String),
     /// The span is not of the form `FROM..TO`.
+    #[error("`{0}` is not of the form FROM..TO, in seconds")]
     Form(String),
     /// A bound is no time, 0 s or later.
+    #[error("`{0}` is no time in seconds")]
     Time(String),
     /// The span does not begin before it ends.
+    #[error("the span {from_s}..{to_s} is empty: FROM must be less than TO")]
     EmptySpan {
         /// Its begin, s.
         from_s: f64,
@@ -127,21 +132,3 @@ pub enum ParseInjectionError {
         to_s: f64,
     },
 }
-
-impl fmt::Display for ParseInjectionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnknownAttack(name) => {
-                let names = Attack::ON_DRIVES.map(Attack::name).join(", ");
-                write!(f, "`{name}` is no attack; known are {names}")
-            }
-            Self::Form(span) => write!(f, "`{span}` is not of the form FROM..TO, in seconds"),
-            Self::Time(bound) => write!(f, "`{bound}` is no time in seconds"),
-            Self::EmptySpan { from_s, to_s } => {
-                write!(f, "the span {from_s}..{to_s} is empty: FROM must be less than TO")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ParseInjectionError {}

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use mufasa_model::report::{FailedStage, Stage};
-use mufasa_props::conformance::{Answer, name};
+use mufasa_model::report::Stage;
+use mufasa_props::conformance::{Answer, name, rank};
 use mufasa_records::names;
 
 use super::checked::{Breach, Checked, Seen};
@@ -189,10 +189,6 @@ impl Course {
         self.close()?;
         self.lines.copy(out)
     }
-}
-
-fn rank(failed: Option<FailedStage>) -> u8 {
-    mufasa_props::conformance::rank(failed)
 }
 
 fn write_disagreements(out: &mut impl Write, checked: &Checked) -> io::Result<()> {

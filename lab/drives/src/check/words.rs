@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
+use mufasa_model::report::{FailedStage, InvalidInput, Report, Rule, Stage, Witness};
 use mufasa_props::conformance::{Answer, name};
 
 use crate::seconds;
@@ -44,21 +44,10 @@ pub fn invalid(problem: &InvalidInput) -> String {
     }
 }
 
-/// The witness of a failed stage, if a stage failed.
-pub fn failed_witness(report: &Report) -> Option<&Witness> {
-    report.stages.iter().find_map(|outcome| match outcome {
-        Outcome::Failed(witness) => Some(witness),
-        Outcome::Passed
-        | Outcome::Skipped(_)
-        | Outcome::NotApplicable(_)
-        | Outcome::NotScheduled => None,
-    })
-}
-
 fn report_in_words(report: &Report) -> String {
     let Some(failed) = report.failed_stage else { return "safe".to_owned() };
     let place = failed_stage(failed);
-    match (failed, &report.input, failed_witness(report)) {
+    match (failed, &report.input, report.witness()) {
         (FailedStage::Input, Some(problem), _) => {
             format!("invalid remote input: {}", invalid(problem))
         }
@@ -187,6 +176,8 @@ fn trimmed(number: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::numbers::real::Real;
+
     use super::*;
 
     #[test]
@@ -200,18 +191,9 @@ mod tests {
 
     #[test]
     fn a_collision_names_point_track_and_numbers() {
-        let found = Witness {
-            rule: Rule::Collision,
-            point: Some(4),
-            track: Some(7),
-            detection: None,
-            item: None,
-            age_ns: None,
-            segment: None,
-            disk: None,
-            cell: None,
-            compared: [4.1, 5.0],
-        };
+        let [four, five] = [4.1, 5.0].map(Real::from_double);
+        let collision = Witness::new(Rule::Collision, &four, &five).at_point(4);
+        let found = Witness { track: Some(7), ..collision };
         assert_eq!(witness(&found), "point 4 meets track 7 (4.1 m < 5 m)");
         // With a margin of 1 m a distance of 5.5 m counts as near.
         let near = Witness { compared: [5.5, 5.0], ..found.clone() };

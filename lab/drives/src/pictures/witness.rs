@@ -52,7 +52,7 @@ pub fn places(cycle: &Cycle, report: &Report) -> Vec<[f64; 2]> {
 pub fn draw(scene: &mut Scene, cycle: &Cycle, report: &Report) {
     let marks = marks(cycle, report);
     let stage = mufasa_props::conformance::name(report.failed_stage);
-    let rule = words::failed_witness(report).map_or("", |witness| names::rule(witness.rule));
+    let rule = report.witness().map_or("", |witness| names::rule(witness.rule));
     scene.canvas.open(&format!("id=\"witness\" data-stage=\"{stage}\" data-rule=\"{rule}\""));
     for shape in &marks.shapes {
         scene.rectangle(shape, "witness");
@@ -77,7 +77,7 @@ pub fn draw(scene: &mut Scene, cycle: &Cycle, report: &Report) {
 }
 
 fn label_text(report: &Report) -> String {
-    match (report.failed_stage, words::failed_witness(report)) {
+    match (report.failed_stage, report.witness()) {
         (_, Some(witness)) => words::witness(witness),
         (Some(FailedStage::Input), None) => match &report.input {
             Some(problem) => format!("invalid {}", problem.field),
@@ -100,7 +100,7 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
         circles: Vec::new(),
         anchor: centre,
     };
-    let Some(witness) = words::failed_witness(report) else { return marks };
+    let Some(witness) = report.witness() else { return marks };
     let point = witness.point.and_then(|index| point_or_place(cycle, index));
     let point = point.as_ref();
     if let Some(point) = point {

@@ -3,6 +3,7 @@
 use mufasa_drives::check::words;
 use mufasa_drives::pictures::{Content, picture};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, Lead, Track};
+use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{
     FailedStage, InvalidInput, Outcome, Reason, Report, Rule, Stage, Witness,
 };
@@ -39,18 +40,7 @@ fn cycle() -> Cycle {
 }
 
 fn witness(rule: Rule) -> Witness {
-    Witness {
-        rule,
-        point: None,
-        track: None,
-        detection: None,
-        item: None,
-        age_ns: None,
-        segment: None,
-        disk: None,
-        cell: None,
-        compared: [4.1, 5.0],
-    }
+    Witness::new(rule, &Real::from_double(4.1), &Real::from_double(5.0))
 }
 
 fn failed(stage: Stage, witness: Witness) -> Report {

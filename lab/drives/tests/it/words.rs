@@ -56,7 +56,7 @@ fn the_relation_holds_between_the_numbers_as_they_are_printed() {
     let (mut by_less, mut starts, mut turns) = (0, [0; 2], [0; 2]);
     for (id, cycle) in mufasa_records::cycles_from_lines(&cycles()).into_iter().flatten() {
         let Ok(report) = mufasa_model::cycle::check(&cycle, Reading::Exact) else { continue };
-        let Some(witness) = words::failed_witness(&report) else { continue };
+        let Some(witness) = report.witness() else { continue };
         let words = words::witness(witness);
         let numbers = compared(&words);
         let holds = numbers.is_none_or(|(left, relation, right)| match relation {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use mufasa_drives::check::judge::is_safe;
-use mufasa_drives::check::words::{self, failed_witness};
+use mufasa_drives::check::words;
 use mufasa_link::message::EncodeError;
 use mufasa_props::conformance::{Answer, name};
 use serde_json::json;
@@ -76,7 +76,7 @@ impl Tally {
 fn kind(answer: &Answer) -> String {
     let Ok(report) = answer else { return "error".to_owned() };
     let stage = name(report.failed_stage);
-    match failed_witness(report) {
+    match report.witness() {
         Some(witness) => format!("{stage} {:?}", witness.rule),
         None => stage.to_owned(),
     }

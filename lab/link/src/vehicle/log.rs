@@ -2,12 +2,12 @@
 //! safe verdict: told from the entries alone.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// One thing that happened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -86,30 +86,23 @@ pub enum What {
 }
 
 /// A remote result that was used, and why it should not have been.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum Uncovered {
     /// The last decision is of another time, or there is none.
+    #[error("used without a decision of this cycle")]
     NoDecision,
     /// The cycle was not safe.
+    #[error("used after an unsafe decision")]
     Unsafe,
     /// Its group was not remote in the cycle that was decided.
+    #[error("used though its group was not remote")]
     Local,
     /// No session of this station runs.
+    #[error("used though no session of its station runs")]
     NoSession,
     /// It is not what was accepted last in the running session.
+    #[error("used though it is not what the session had last")]
     Other,
-}
-
-impl fmt::Display for Uncovered {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoDecision => "used without a decision of this cycle",
-            Self::Unsafe => "used after an unsafe decision",
-            Self::Local => "used though its group was not remote",
-            Self::NoSession => "used though no session of its station runs",
-            Self::Other => "used though it is not what the session had last",
-        })
-    }
 }
 
 /// Follows the entries of a log; it knows nothing of the monitor.

@@ -9,6 +9,7 @@ use std::path::{Path as File, PathBuf};
 
 use mufasa_drives::readers::npy;
 use serde::Deserialize;
+use thiserror::Error;
 
 use crate::map::given::{Given, GivenStart};
 use crate::map::id::{MapId, Sum};
@@ -50,7 +51,8 @@ const WAYS: [(&str, u8); 6] = [
 const EGO_WAYS: [usize; 2] = [1, 4];
 
 /// Why a file gives no map or no scenario.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{}{}{field}: {message}", .file.display(), if .field.is_empty() { "" } else { ": " })]
 pub struct UlmError {
     /// The file.
     pub file: PathBuf,
@@ -59,15 +61,6 @@ pub struct UlmError {
     /// What is wrong, or needed.
     pub message: String,
 }
-
-impl core::fmt::Display for UlmError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let field = if self.field.is_empty() { "" } else { ": " };
-        write!(f, "{}{field}{}: {}", self.file.display(), self.field, self.message)
-    }
-}
-
-impl std::error::Error for UlmError {}
 
 #[derive(Deserialize)]
 struct MapState {

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use mufasa_drives::{Attack, Drive, Injection, Options, Tail};
 use mufasa_model::input::cycle::Profile;
-use mufasa_model::report::{Outcome, Rule};
+use mufasa_model::report::Rule;
 
 use super::files::{Scratch, inject, judged, one, own, vehicle};
 
@@ -31,11 +31,8 @@ fn found(profile: Profile, attack: Attack) -> Option<(usize, Rule)> {
     let (checked, all) = judged(attacked);
     assert_eq!(checked.disagreements(), 0);
     all.iter().enumerate().skip(6).find_map(|(i, judged)| {
-        let stages = &judged.model.as_ref().expect("local input is valid").stages;
-        stages.iter().find_map(|it| match it {
-            Outcome::Failed(witness) => Some((i, witness.rule)),
-            _ => None,
-        })
+        let report = judged.model.as_ref().expect("local input is valid");
+        report.witness().map(|witness| (i, witness.rule))
     })
 }
 

@@ -140,8 +140,11 @@ fn other_formats_are_told_what_to_do() {
     let utf_16: Vec<u8> = "\u{feff}<a/>".encode_utf16().flat_map(u16::to_le_bytes).collect();
     let scenario = fs::read_to_string(own("readers/small-2018b.xml")).unwrap();
     let latin = [scenario.as_bytes(), b"<!-- J\xfcrgen -->"].concat();
-    let cases: [(&[u8], &str); 8] = [
+    let cases: [(&[u8], &str); 11] = [
         (b"", "neither XML nor JSON Lines"),
+        (b"hello", "neither XML nor JSON Lines"),
+        (b"<svg/>", "is neither `commonRoad` nor `CommonRoadSolution`"),
+        (b"<commonRoad", "cut off"),
         (b"PK\x03\x04\x14\x00", "unpack it"),
         (&packed(&packed(b"<a/>")), "unpack it"),
         (b"\x89MCAP0\r\n\x01", "cut off or broken"),
@@ -164,6 +167,7 @@ fn other_formats_are_told_what_to_do() {
 
 #[test]
 fn a_folder_is_refused_with_what_to_name() {
+    assert!(one(&[own("no such file")], &Options::default()).is_err());
     let message = one(&[own("readers")], &Options::default()).unwrap_err().message;
     assert!(message.ends_with("name the files in it, such as FOLDER/*.xml"), "{message}");
 }

@@ -21,7 +21,6 @@ use mufasa::input::cycle::Cycle;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row as Lent, Scratch, Sizes};
-use mufasa_model::report::Outcome;
 use mufasa_props::bridge;
 use mufasa_records::{names, write};
 use rayon::prelude::*;
@@ -225,11 +224,8 @@ fn judged(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Option<Alarm> {
     };
     let report = bridge::report_from_impl(&report);
     let stage = names::failed_stage(report.failed_stage?);
-    let rule = report.stages.iter().find_map(|it| match it {
-        Outcome::Failed(witness) => Some(names::rule(witness.rule)),
-        _ => None,
-    });
-    Some(Alarm { stage, rule: rule.unwrap_or_default() })
+    let rule = report.witness().map_or("", |witness| names::rule(witness.rule));
+    Some(Alarm { stage, rule })
 }
 
 impl Run {
