@@ -1,7 +1,6 @@
 //! The command line: commands, exit codes, and quiet ends when nobody reads on.
 
 mod arguments;
-mod codes;
 mod conform;
 pub(crate) mod link;
 #[cfg(test)]
@@ -20,18 +19,16 @@ use std::time::Duration;
 
 use clap::error::ErrorKind;
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
-use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
-    CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ExploreArguments,
-    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments, file_or,
-    folder_or,
+    CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ManArguments,
+    OracleArguments, SchemasArguments, VectorsArguments, file_or, folder_or,
 };
-use self::codes::{BAD_INPUT, CLOSED_PIPE, refused};
 use self::conform::{ConformArguments, MergeCommand};
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
+use crate::ended::{BAD_INPUT, Ended, Stopped, cannot, complain, said};
 use crate::evaluate;
 use crate::evaluate::arguments::EvaluateArguments;
 use crate::evaluate::merge::MergeArguments;
@@ -40,9 +37,12 @@ use crate::parameters_file;
 use crate::prove;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
-use mufasa_drives::check::{self, Format, Settings, complain};
+use mufasa_drives::check::{self, Format, Settings};
 use mufasa_drives::{self as drive, inject, progress};
 use mufasa_records::files;
+
+/// As a shell says that a program was ended by a closed pipe.
+const CLOSED_PIPE: u8 = 141;
 
 /// MUFASA's five validation stages, as an exact model and as an implementation, side by side.
 ///
@@ -75,9 +75,9 @@ enum Command {
     /// Write the vectors: lines with the answers that they must get, their schemas, a README.
     Vectors(VectorsArguments),
     /// Explore the offloading protocol state by state.
-    Explore(ExploreArguments),
+    Explore(explore::Settings),
     /// Prove what is claimed with every engine that is here, and list what is proved.
-    Prove(ProveArguments),
+    Prove(prove::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     Evaluate(EvaluateArguments),
     /// Put the parts of an experiment together that were made by `evaluate --shard`.
@@ -104,7 +104,7 @@ pub fn main() -> ExitCode {
             // Help asked for is no error; whether anybody reads it is not our business.
             let _ = error.print();
             if let Some(tip) = tip(&error, env::args_os().skip(1)) {
-                complain(&mut io::stderr(), tip);
+                complain(tip);
             }
             return ExitCode::from(if error.use_stderr() { BAD_INPUT } else { 0 });
         }
@@ -117,32 +117,30 @@ pub fn main() -> ExitCode {
     let mut out = BufWriter::new(io::stdout().lock());
     let demo = || {
         let writes = format!("no command, so the demo, which writes into {}/", demo::FOLDER);
-        complain(&mut io::stderr(), &writes);
+        complain(&writes);
         Command::Demo(DemoArguments { out: Some(demo::FOLDER.into()) })
     };
     let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
-        Command::Demo(it) => {
-            demo::run(&folder_or(it.out, demo::FOLDER), &mut out, &mut io::stderr())
-        }
+        Command::Demo(it) => demo::run(&folder_or(it.out, demo::FOLDER), &mut out),
         Command::Oracle(OracleArguments { implementation }) => {
             let answer = if implementation { oracle::by_implementation } else { oracle::by_model };
-            oracle::run(io::stdin().lock(), &mut out, answer).map(|()| 0)
+            oracle::run(io::stdin().lock(), &mut out, answer).map(|()| 0).map_err(Stopped::Stream)
         }
         Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
         Command::Vectors(VectorsArguments { out: folder }) => {
             written::vectors(&folder_or(folder, "vectors"), &mut out)
         }
-        Command::Explore(arguments) => explore(arguments, &mut out),
-        Command::Prove(arguments) => prove(arguments, &mut out),
+        Command::Explore(settings) => explore(&settings, &mut out),
+        Command::Prove(settings) => prove(settings, &mut out),
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         Command::Merge(arguments) => merge(&arguments, &mut out),
         Command::Vehicle(arguments) => {
-            Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
+            interrupts().and_then(|stop| crate::link::vehicle(&arguments, &stop, &mut out))
         }
         Command::Station(arguments) => {
-            Ok(linked(|stop| crate::link::station(&arguments, stop, &mut out)))
+            interrupts().and_then(|stop| crate::link::station(&arguments, &stop, &mut out))
         }
         Command::Completions(CompletionsArguments { shell }) => {
             written::completions(shell, command(), &mut out)
@@ -150,10 +148,17 @@ pub fn main() -> ExitCode {
         Command::Man(it) => written::man(&folder_or(it.out, "man"), command(), &mut out),
         Command::Schemas(it) => written::schemas(&folder_or(it.out, "schemas"), &mut out),
     };
-    let code = match result.and_then(|code| out.flush().map(|()| code)) {
+    let flushed = out.flush().map_err(Stopped::Stream);
+    let code = match result.and_then(|code| flushed.map(|()| code)) {
         Ok(code) => code,
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => CLOSED_PIPE,
-        Err(error) => refused(&format!("standard input or output: {error}")),
+        Err(Stopped::Stream(error)) if error.kind() == io::ErrorKind::BrokenPipe => CLOSED_PIPE,
+        Err(stopped) => {
+            complain(&match stopped {
+                Stopped::Stream(error) => format!("standard input or output: {error}"),
+                Stopped::Refused(message) => message,
+            });
+            BAD_INPUT
+        }
     };
     // What could not be written is not tried again when the buffer is dropped.
     let _ = out.into_parts();
@@ -175,26 +180,22 @@ fn tip(error: &clap::Error, mut given: impl Iterator<Item = OsString>) -> Option
     )
 }
 
-fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
+fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
     let stdin = Path::new(parameters_file::STDIN);
     if arguments.parameters.as_deref() == Some(stdin)
         && arguments.files.iter().any(|it| it == stdin)
     {
         let message =
             "--parameters -: standard input is one of FILES, too, and comes once; name a file";
-        return Ok(refused(message));
+        return Err(message.to_owned().into());
     }
-    let parameters = match arguments.parameters.as_deref().map(parameters_file::read).transpose() {
-        Ok(parameters) => parameters.unwrap_or_default(),
-        Err(error) => return Ok(refused(&error.to_string())),
-    };
+    let read = arguments.parameters.as_deref().map(parameters_file::read);
+    let parameters = read.transpose().map_err(said)?.unwrap_or_default();
     if let Some(note) = &parameters.note {
-        complain(&mut io::stderr(), note);
+        complain(note);
     }
-    if let Some(folder) = &arguments.svg
-        && let Err(error) = files::prepare(folder)
-    {
-        return Ok(refused(&format!("{}: cannot be written to: {error}", folder.display())));
+    if let Some(folder) = &arguments.svg {
+        files::prepare(folder).map_err(cannot(folder, "written to"))?;
     }
     let mut options = arguments.options();
     options.parameters = parameters.stages;
@@ -218,122 +219,76 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
 }
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
-fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> io::Result<u8> {
-    let file = arguments.file.display();
-    let text = match fs::read_to_string(&arguments.file) {
-        Ok(text) => text,
-        Err(error) => return Ok(refused(&format!("{file}: cannot be read: {error}"))),
-    };
-    let composed = match compose::composed(&text) {
-        Ok(composed) => composed,
-        Err(error) => return Ok(refused(&format!("{file}: {error}"))),
-    };
-    if arguments.dot {
-        write!(out, "{}", composed.dot())?;
-    } else {
-        write!(out, "{}", composed.table())?;
-    }
-    if let Some(picture) = &arguments.svg
-        && let Err(error) = files::write(picture, &composed.svg())
-    {
-        return Ok(refused(&format!("{}: cannot be written: {error}", picture.display())));
+fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
+    let ComposeArguments { file, dot, svg } = arguments;
+    let text = fs::read_to_string(file).map_err(cannot(file, "read"))?;
+    let composed =
+        compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;
+    write!(out, "{}", if *dot { composed.dot() } else { composed.table() })?;
+    if let Some(picture) = svg {
+        files::write(picture, &composed.svg()).map_err(cannot(picture, "written"))?;
     }
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 
-fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> {
-    let settings = explore::Settings {
-        profiles: arguments
-            .profile
-            .map_or(vec![Profile::PAPER, Profile::HARDENED], |profile| vec![profile]),
-        bounds: arguments.bounds,
-        world: arguments.world,
-        into: arguments.into,
-        folder: folder_or(arguments.out, "exploration"),
-    };
-    Ok(explore::run(&settings, out, &mut io::stderr())?.code())
+fn explore(settings: &explore::Settings, out: &mut impl Write) -> Ended {
+    let folder = folder_or(settings.out.clone(), "exploration");
+    explore::run(settings, &folder, out).map(explore::End::code)
 }
 
-fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
-    let settings = prove::Settings {
-        // The usual file holds all claims, so that a run of some writes only where it is told.
-        out: match arguments.out {
-            None if arguments.names.is_empty() && arguments.required.is_none() => {
-                Some(file_or(None, prove::FILE))
-            }
-            out => out,
-        },
-        names: arguments.names,
-        required: arguments.required,
-        cbmc: arguments.cbmc,
-        markdown: arguments.markdown,
-        sources: arguments.sources,
-        into: arguments.into,
-    };
-    prove::run(&settings, out, &mut io::stderr()).map(prove::End::code)
+fn prove(mut settings: prove::Settings, out: &mut impl Write) -> Ended {
+    // The usual file holds all claims, so that a run of some writes only where it is told.
+    if settings.out.is_none() && settings.names.is_empty() && settings.required.is_none() {
+        settings.out = Some(file_or(None, prove::FILE));
+    }
+    prove::run(&settings, out).map(prove::End::code)
 }
 
 /// An experiment. Only a search outlives the first interrupt: of the others nothing is left.
-fn evaluate(arguments: &EvaluateArguments, out: &mut impl Write) -> io::Result<u8> {
-    let stop = if arguments.is_search() { interrupts() } else { Ok(Arc::default()) };
-    match stop {
-        Ok(stop) => evaluate::run(arguments, &stop, out, &mut io::stderr()),
-        Err(error) => Ok(refused(&format!("interrupts: {error}"))),
-    }
+fn evaluate(arguments: &EvaluateArguments, out: &mut impl Write) -> Ended {
+    let stop = if arguments.is_search() { interrupts()? } else { Arc::default() };
+    evaluate::run(arguments, &stop, out)
 }
 
-fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> {
-    let result = match arguments.merge {
-        Some(MergeCommand::Merge { files, out: folder }) => {
-            kit::merge(&files, folder.as_ref(), out)
-        }
-        None => {
-            let settings = kit::Settings {
-                version: env!("MUFASA_VERSION").to_owned(),
-                command: arguments.command,
-                profile: arguments.profile,
-                cases: arguments.cases,
-                seed: arguments.seed,
-                time_limit: Duration::from_millis(arguments.time_limit),
-                shrinking: Duration::from_secs(arguments.shrinking),
-                kinds: arguments.kinds,
-                shard: arguments.shard,
-                drives: arguments.drives,
-                vectors: !arguments.no_vectors,
-                tolerance: arguments.tolerance,
-                out: folder_or(arguments.out, "mufasa-conform"),
-            };
-            let stop = match interrupts() {
-                Ok(stop) => stop,
-                Err(error) => return Ok(refused(&format!("interrupts: {error}"))),
-            };
-            kit::run(&settings, &stop, out, &mut io::stderr())
-        }
+fn conform(arguments: ConformArguments, out: &mut impl Write) -> Ended {
+    if let Some(MergeCommand::Merge { files, out: folder }) = arguments.merge {
+        return conformed(kit::merge(&files, folder.as_ref(), out));
+    }
+    let settings = kit::Settings {
+        version: env!("MUFASA_VERSION").to_owned(),
+        command: arguments.command,
+        profile: arguments.profile,
+        cases: arguments.cases,
+        seed: arguments.seed,
+        time_limit: Duration::from_millis(arguments.time_limit),
+        shrinking: Duration::from_secs(arguments.shrinking),
+        kinds: arguments.kinds,
+        shard: arguments.shard,
+        drives: arguments.drives,
+        vectors: !arguments.no_vectors,
+        tolerance: arguments.tolerance,
+        out: folder_or(arguments.out, "mufasa-conform"),
     };
-    conformed(result, out)
+    conformed(kit::run(&settings, &interrupts()?, out, &mut io::stderr()))
 }
 
 /// Parts of an experiment, or of a campaign of `conform`.
-fn merge(arguments: &MergeArguments, out: &mut impl Write) -> io::Result<u8> {
+fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
     let MergeArguments { parts, map, out: folder } = arguments;
     if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {
-        return evaluate::shards::merge(arguments, out, &mut io::stderr());
+        return evaluate::shards::merge(arguments, out);
     }
     if map.is_some() {
-        return Ok(refused("--map: a campaign of conform has no map"));
+        return Err(String::from("--map: a campaign of conform has no map").into());
     }
-    conformed(kit::merge(parts, folder.as_ref(), out), out)
+    conformed(kit::merge(parts, folder.as_ref(), out))
 }
 
-fn conformed(result: Result<u8, kit::ConformError>, out: &mut impl Write) -> io::Result<u8> {
-    match result {
-        Ok(code) => Ok(code),
-        Err(kit::ConformError::Output(error)) => Err(error),
-        Err(error) => {
-            out.flush()?;
-            Ok(refused(&error.to_string()))
-        }
-    }
+fn conformed(result: Result<u8, kit::ConformError>) -> Ended {
+    result.map_err(|error| match error {
+        kit::ConformError::Output(error) => Stopped::Stream(error),
+        error => Stopped::Refused(error.to_string()),
+    })
 }
 
 /// A file that gets longer than a limit of the system (`ulimit -f`) is an error of writing, as on a full disk, and
@@ -344,29 +299,21 @@ fn files_may_be_limited() {
         let reached = Arc::new(AtomicBool::new(false));
         let registered = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, reached);
         if let Err(error) = registered {
-            complain(&mut io::stderr(), &format!("limits of files: {error}"));
+            complain(&format!("limits of files: {error}"));
         }
     }
 }
 
-/// Runs a program of the link, which ends at the first interrupt.
-fn linked(run: impl FnOnce(&Arc<AtomicBool>) -> Result<u8, String>) -> u8 {
-    let stop = match interrupts() {
-        Ok(stop) => stop,
-        Err(error) => return refused(&format!("interrupts: {error}")),
-    };
-    run(&stop).unwrap_or_else(|message| refused(&message))
-}
-
 /// What the first interrupt sets; the second ends this program at once.
-fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+fn interrupts() -> Result<Arc<AtomicBool>, Stopped> {
     let stop = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
+    let handler = ctrlc::set_handler(move || {
         if set.swap(true, Ordering::Relaxed) {
             process::exit(i32::from(kit::INTERRUPTED));
         }
-    })?;
+    });
+    handler.map_err(|error| format!("interrupts: {error}"))?;
     Ok(stop)
 }
 

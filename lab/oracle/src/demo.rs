@@ -11,11 +11,13 @@ use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::Hold;
 use mufasa_drives::check::findings::Findings;
 use mufasa_drives::check::table;
-use mufasa_drives::check::{self, complain, pictures, report, words};
+use mufasa_drives::check::{self, pictures, report, words};
 use mufasa_drives::counted;
 use mufasa_drives::{self as drive, Attack, DEMO, Injection, Options, Stream};
 use mufasa_records::files;
 use mufasa_records::names;
+
+use crate::ended::{DISAGREES, Ended, cannot, complain, said};
 
 /// Where the demo puts its files unless it is told otherwise.
 pub const FOLDER: &str = "mufasa-demo";
@@ -54,14 +56,8 @@ const CASES: [Case; 4] = [
 /// Runs the demo and writes scenario, solution and a picture of every fallback into `folder`.
 /// Returns the exit code: 0 when everything is as it should be, 1 when not, 2 when the folder
 /// cannot be written, 3 when model and implementation disagree.
-pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Result<u8> {
-    let drives = match prepare(folder) {
-        Ok(drives) => drives,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(2);
-        }
-    };
+pub fn run(folder: &Path, out: &mut impl Write) -> Ended {
+    let drives = prepare(folder)?;
     let mut demo = Demo {
         folder,
         findings: Findings::default(),
@@ -91,24 +87,22 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     for sentence in sentences {
         writeln!(out, "  {sentence}")?;
     }
-    demo.finish(out, err)
+    demo.finish(out)
 }
 
 /// Writes the files of the drive and reads them, in the hardened and in the paper profile.
 fn prepare(folder: &Path) -> Result<[Stream; 2], String> {
-    let cannot = |file: &Path, error| format!("{}: cannot be written: {error}", file.display());
-    files::prepare(folder).map_err(|error| cannot(folder, error))?;
+    files::prepare(folder).map_err(cannot(folder, "written"))?;
     let paths = DEMO.map(|(name, _)| folder.join(name));
     for (path, (_, text)) in paths.iter().zip(DEMO) {
-        files::write(path, text).map_err(|error| cannot(path, error))?;
+        files::write(path, text).map_err(cannot(path, "written"))?;
     }
     let read = |profile| {
         let options = Options { profile, ..Options::default() };
         let drives = drive::streams(&paths, &options);
         drives.into_iter().next().ok_or("no drive is built in".to_owned())
     };
-    let in_words = |error: drive::ReadError| error.to_string();
-    Ok([read(Profile::HARDENED)?.map_err(in_words)?, read(Profile::PAPER)?.map_err(in_words)?])
+    Ok([read(Profile::HARDENED)?.map_err(said)?, read(Profile::PAPER)?.map_err(said)?])
 }
 
 fn introduction(drive: &Stream, out: &mut impl Write) -> io::Result<()> {
@@ -222,7 +216,7 @@ impl Demo<'_> {
         }
     }
 
-    fn finish(self, out: &mut impl Write, err: &mut impl Write) -> io::Result<u8> {
+    fn finish(self, out: &mut impl Write) -> Ended {
         let Self { folder, findings, surprises, pictures, problem } = self;
         let folder = folder.display();
         writeln!(out)?;
@@ -237,14 +231,13 @@ impl Demo<'_> {
             findings.summary()
         )?;
         if let Some((file, error)) = problem {
-            complain(err, &format!("{}: cannot be written: {error}", file.display()));
-            return Ok(2);
+            return Err(cannot(&file, "written")(error).into());
         }
         if findings.disagreements > 0 {
-            return Ok(3);
+            return Ok(DISAGREES);
         }
         for surprise in &surprises {
-            complain(err, &format!("not as expected: {surprise}"));
+            complain(&format!("not as expected: {surprise}"));
         }
         Ok(u8::from(!surprises.is_empty()))
     }

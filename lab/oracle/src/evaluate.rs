@@ -1,7 +1,6 @@
 //! Experiments in a closed loop (`docs/evaluation.md`): tables, and JSON and CSV of all runs.
 
 pub mod arguments;
-mod codes;
 mod falsify;
 mod log;
 mod maps;
@@ -13,6 +12,7 @@ mod scenes;
 pub mod shards;
 pub mod tables;
 mod text;
+mod work;
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -21,7 +21,6 @@ use std::sync::PoisonError;
 use std::sync::atomic::AtomicBool;
 
 use indicatif::ProgressBar;
-use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
@@ -35,10 +34,11 @@ use mufasa_sim::experiment::select::{Options, Select};
 use mufasa_sim::map::Town;
 
 use self::arguments::{Asked, EvaluateArguments};
-use self::codes::{DISAGREES, FAILED, refused, say};
 use self::report::{FailedRun, Leaves, REPLAYS, Section};
 use self::tables::named;
-use self::text::{csv, json, said};
+use self::text::{csv, json};
+use self::work::{pool, prepared};
+use crate::ended::{DISAGREES, Ended, FAILED, complain, said, say};
 use crate::rows::{Column, Rows};
 
 /// One cycle of so many is checked by the model if not all are.
@@ -57,17 +57,12 @@ struct Results {
 }
 
 /// Makes an experiment, writes its table to `out` and its files into the folder, if one is given. A search ends when
-/// `stop` is set, and says so; nothing else looks at it. Its exit code. Errors: those of writing to `out`.
-pub fn run(
-    arguments: &EvaluateArguments,
-    stop: &AtomicBool,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
+/// `stop` is set, and says so; nothing else looks at it. Its exit code.
+pub fn run(arguments: &EvaluateArguments, stop: &AtomicBool, out: &mut impl Write) -> Ended {
     let (size, name) = match &arguments.experiment {
-        Some(Asked::Replay(it)) => return replay::run(it, jobs, out, err),
-        Some(Asked::Falsify(it)) => return falsify::run(it, stop, out, err),
-        Some(Asked::Scenes(it)) => return scenes::run(it, out, err),
+        Some(Asked::Replay(it)) => return replay::run(it, jobs, out),
+        Some(Asked::Falsify(it)) => return falsify::run(it, stop, out),
+        Some(Asked::Scenes(it)) => return scenes::run(it, out),
         None => (&arguments.size, "failures"),
         Some(Asked::Failures(size)) => (size, "failures"),
         Some(Asked::Readings(size)) => (size, "readings"),
@@ -84,48 +79,36 @@ pub fn run(
         ..Select::only(size.only.as_deref())
     };
     let task = Task { sized: &|defaults| size.options(defaults), select: &select };
-    let prepared = prepared(size.out.as_deref(), "").and_then(|()| maps::of(size.map.as_deref()));
-    let made = prepared.and_then(|town| {
-        let shown = named(name).ok_or_else(|| format!("{name}: no experiment"))?;
-        in_threads(size.threads, &town, &task, shown)
-    });
-    match (made, size.shard, &size.out) {
-        (Ok(results), Some(shard), Some(folder)) => {
-            shards::write(folder, shard, &results, select, out, err)
-        }
-        (made, ..) => {
-            let made = made.map(|results| (results, select));
-            ended(made, size.out.as_deref(), out, err)
-        }
+    prepared(size.out.as_deref(), "")?;
+    let town = maps::of(size.map.as_deref())?;
+    let shown = named(name).ok_or_else(|| format!("{name}: no experiment"))?;
+    let results = in_threads(size.threads, &town, &task, shown)?;
+    match (size.shard, &size.out) {
+        (Some(shard), Some(folder)) => shards::write(folder, shard, &results, select, out),
+        _ => ended(results, select, size.out.as_deref(), out),
     }
 }
 
 /// Writes what was made: the table, and files where they are asked for.
 fn ended(
-    made: Result<(Results, Select<'_>), String>,
+    results: Results,
+    select: Select<'_>,
     folder: Option<&Path>,
     out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let (results, select) = match made {
-        Ok(made) => made,
-        Err(message) => return Ok(refused(&message, err)),
-    };
+) -> Ended {
     let checks = select.checks.into_inner().unwrap_or_else(PoisonError::into_inner);
     let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
     write!(out, "{}", results.table.text(None))?;
-    tell(&checks, out, err)?;
+    tell(&checks, out)?;
     let code = code(&results, &checks);
-    match leaves(results, &checks, drawn, folder).write(folder) {
-        Ok(files) => say(&files, out).map(|()| code),
-        Err(message) => Ok(refused(&message, err)),
-    }
+    say(&leaves(results, &checks, drawn, folder).write(folder)?, out)?;
+    Ok(code)
 }
 
 /// Says what the model was asked, and names where it disagrees.
-fn tell(checks: &Checks, out: &mut impl Write, err: &mut impl Write) -> io::Result<()> {
+fn tell(checks: &Checks, out: &mut impl Write) -> io::Result<()> {
     for it in &checks.disagreements {
-        complain(err, &format!("{} at {} ns: {}", it.id, it.t_ns, it.why));
+        complain(&format!("{} at {} ns: {}", it.id, it.t_ns, it.why));
     }
     if checks.checked == 0 {
         return Ok(());
@@ -157,19 +140,6 @@ fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job>
     let on = |options| Options { map: town.id, ..sized(options) };
     named(name)
         .map_or_else(Vec::new, |(experiment, _)| experiment.jobs(town, on(experiment.options)))
-}
-
-/// Whether files can be written into this folder in the folder.
-fn prepared(folder: Option<&Path>, within: &str) -> Result<(), String> {
-    let Some(folder) = folder else { return Ok(()) };
-    let say = |error| format!("{}: cannot be written to: {error}", folder.display());
-    files::prepare(&folder.join(within)).map_err(say)
-}
-
-/// A pool of so many threads; of one for each processor, if nothing is said.
-fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, String> {
-    let threads = usize::from(threads.unwrap_or(0));
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)
 }
 
 /// In a pool of so many threads.

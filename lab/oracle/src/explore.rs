@@ -12,6 +12,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use clap::Args;
+use clap::builder::TypedValueParser;
 use mufasa_exploration::bounds::{Bounds, World};
 use mufasa_exploration::properties::Property;
 use mufasa_exploration::run::{self, WorldOutcome};
@@ -20,7 +22,8 @@ use mufasa_model::input::cycle::Profile;
 
 use self::report::ExplorationReport;
 use crate::document;
-use mufasa_drives::check::complain;
+use crate::ended::{Stopped, cannot, complain, say};
+use crate::limits::{one_of, profile};
 use mufasa_records::files;
 use mufasa_records::names;
 
@@ -33,18 +36,30 @@ pub fn table_name(bounds: Bounds) -> String {
 }
 
 /// What is explored.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model and
+implementation disagree, or the two engines do.")]
 pub struct Settings {
-    /// In which profiles.
-    pub profiles: Vec<Profile>,
-    /// How much.
+    /// Profile; by default both.
+    #[arg(long, value_parser = profile(), ignore_case = true)]
+    pub profile: Option<Profile>,
+    /// How much: small takes minutes, large hours.
+    #[arg(long, default_value = "small", value_parser = bounds(), ignore_case = true)]
     pub bounds: Bounds,
-    /// Only the world of this name.
+    /// Only this world.
+    #[arg(long, value_name = "NAME")]
     pub world: Option<String>,
-    /// A document whose tables of these bounds are replaced.
+    /// Put the tables into a document, between the lines that mark their place.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
     pub into: Option<PathBuf>,
-    /// Folder for vectors and charts of what was found.
-    pub folder: PathBuf,
+    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails [default: exploration].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+fn bounds() -> impl TypedValueParser<Value = Bounds> {
+    one_of([Bounds::Small, Bounds::Large], Bounds::name)
 }
 
 /// How an exploration ended; the worst that applies.
@@ -68,30 +83,21 @@ impl End {
     }
 }
 
-/// Explores, writes tables to `out`, what is wrong to `err`, and into the folder vectors and charts
-/// of what fails, `exploration.json` and `exploration.md`. Errors are those of writing to `out`.
-pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
-    let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
-        return Ok(End::BadInput);
-    };
-    if let Err(message) =
-        document::has_place(settings.into.as_deref(), &table_name(settings.bounds))
-    {
-        complain(err, &message);
-        return Ok(End::BadInput);
-    }
-    if let Err(error) = files::prepare(&settings.folder) {
-        complain(err, &format!("{}: cannot be written to: {error}", settings.folder.display()));
-        return Ok(End::BadInput);
-    }
+/// Explores, writes tables to `out`, and into the folder vectors and charts of what fails, `exploration.json` and
+/// `exploration.md`. Errors: those of writing to `out`, and what makes exploring of no use.
+pub fn run(settings: &Settings, folder: &Path, out: &mut impl Write) -> Result<End, Stopped> {
+    let worlds = worlds(settings.bounds, settings.world.as_deref())?;
+    document::has_place(settings.into.as_deref(), &table_name(settings.bounds))?;
+    files::prepare(folder).map_err(cannot(folder, "written to"))?;
     let (mut end, mut reports) = (End::default(), Vec::new());
-    for profile in &settings.profiles {
+    let both = [Profile::PAPER, Profile::HARDENED];
+    for profile in settings.profile.as_ref().map_or(&both[..], std::slice::from_ref) {
         let mut outcomes = Vec::new();
         for world in &worlds {
             match explore(world, *profile) {
                 Ok(outcome) => outcomes.push(outcome),
                 Err(difference) => {
-                    complain(err, &format!("{}: {difference}", title(world, *profile)));
+                    complain(&format!("{}: {difference}", title(world, *profile)));
                     end = End::Disagree;
                 }
             }
@@ -112,27 +118,27 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         }
         end = end.max(judge(*profile, &outcomes));
         if settings.world.is_none() {
-            end = end.max(look_for_unseen(*profile, &outcomes, err));
+            end = end.max(look_for_unseen(*profile, &outcomes));
         }
         reports.push(report);
         match findings::stories(*profile, &outcomes) {
             Ok(stories) => {
-                let written = findings::write(&settings.folder, &stories);
-                end = end.max(say_written(written, out, err)?);
+                let written = findings::write(folder, &stories);
+                end = end.max(say_written(written, out)?);
             }
             Err(error) => {
-                complain(err, &format!("a counterexample cannot be walked: {error}"));
+                complain(&format!("a counterexample cannot be walked: {error}"));
                 end = end.max(End::Disagree);
             }
         }
         out.flush()?;
     }
-    end = end.max(say_written(write(&settings.folder, &reports), out, err)?);
+    end = end.max(say_written(write(folder, &reports), out)?);
     if let Some(path) = &settings.into {
         let tables: String = reports.iter().map(ExplorationReport::markdown).collect();
         let written = document::write(path, &table_name(settings.bounds), &tables);
         let written = written.map(|()| vec![path.clone()]).map_err(|error| (path.clone(), error));
-        end = end.max(say_written(written, out, err)?);
+        end = end.max(say_written(written, out)?);
     }
     Ok(end)
 }
@@ -140,14 +146,11 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
 type Written = Result<Vec<PathBuf>, (PathBuf, io::Error)>;
 
 /// Names the files written, or the one that cannot be.
-fn say_written(written: Written, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
+fn say_written(written: Written, out: &mut impl Write) -> io::Result<End> {
     match written {
-        Ok(files) => {
-            files.iter().try_for_each(|file| writeln!(out, "{}", file.display()))?;
-            Ok(End::Holds)
-        }
+        Ok(files) => say(&files, out).map(|()| End::Holds),
         Err((file, error)) => {
-            complain(err, &format!("{}: cannot be written: {error}", file.display()));
+            complain(&cannot(&file, "written")(error));
             Ok(End::BadInput)
         }
     }
@@ -167,20 +170,17 @@ fn write(folder: &Path, reports: &[ExplorationReport]) -> Written {
     Ok(written)
 }
 
-/// The worlds asked for; says so when there is none of that name.
-fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Vec<&'static World>> {
+/// The worlds asked for. Errors: there is none of that name.
+fn worlds(bounds: Bounds, name: Option<&str>) -> Result<Vec<&'static World>, String> {
     let all = bounds.worlds();
     let found: Vec<_> =
         all.iter().filter(|world| name.is_none_or(|name| name == world.name)).collect();
     if found.is_empty() && name != Some(monitor::NAME) {
         let names: Vec<_> = all.iter().map(|world| world.name).chain([monitor::NAME]).collect();
-        complain(
-            err,
-            &format!("{}: no such world; there are {}", name.unwrap_or_default(), names.join(", ")),
-        );
-        return None;
+        let (name, names) = (name.unwrap_or_default(), names.join(", "));
+        return Err(format!("{name}: no such world; there are {names}"));
     }
-    Some(found)
+    Ok(found)
 }
 
 fn explore(
@@ -221,12 +221,12 @@ fn judge(profile: Profile, outcomes: &[WorldOutcome]) -> End {
 }
 
 /// All worlds together have to show what the properties speak of: a property of nothing holds.
-fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl Write) -> End {
+fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome]) -> End {
     let mut end = End::default();
     for property in Property::ALL {
         for sight in evidence::unseen(property, profile, outcomes) {
             let (profile, property) = (names::profile(profile), property.name());
-            complain(err, &format!("{profile}: {property}: not seen: {}", sight.name()));
+            complain(&format!("{profile}: {property}: not seen: {}", sight.name()));
             end = End::Fails;
         }
     }

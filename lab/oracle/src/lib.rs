@@ -4,6 +4,7 @@ pub mod cli;
 pub mod compose;
 pub mod demo;
 pub mod document;
+mod ended;
 pub mod evaluate;
 pub mod explore;
 mod limits;

@@ -1,7 +1,12 @@
-//! Numbers of the command line within limits, which a refusal says.
+//! Values of the command line: numbers within limits, which a refusal says, and names of the records.
 
 use std::fmt::Display;
 use std::str::FromStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::services::configuration::Configuration;
+use mufasa_records::names;
 
 /// A number within limits; NaN is in none.
 pub fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
@@ -20,6 +25,28 @@ where
         Ok(number) if (low..=high).contains(&number) => Ok(number),
         Ok(_) | Err(_) => Err(format!("must be a whole number from {low} to {high}")),
     }
+}
+
+/// A profile that has a name.
+pub fn profile() -> impl TypedValueParser<Value = Profile> {
+    one_of([Profile::PAPER, Profile::HARDENED], names::profile)
+}
+
+/// A configuration.
+pub fn configuration() -> impl TypedValueParser<Value = Configuration> {
+    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    one_of([Local, MotRemote, AllRemote, PlanRemote], names::configuration)
+}
+
+/// One of these values by its name in the records.
+pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(values.map(name)).try_map(move |given| {
+        let same = |value: &T| name(*value).eq_ignore_ascii_case(&given);
+        values.into_iter().find(same).ok_or("unknown name")
+    })
 }
 
 #[cfg(test)]

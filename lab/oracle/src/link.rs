@@ -1,7 +1,7 @@
 //! The commands `vehicle` and `station`: the two programs of the link.
 
 use std::fs::File;
-use std::io::{self, LineWriter, Write};
+use std::io::{LineWriter, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,9 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use comfy_table::{Table, presets};
-use mufasa_conform::INTERRUPTED;
 use mufasa_drives::check::checked::IGNORED;
-use mufasa_drives::check::complain;
 use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, streams};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
@@ -29,6 +27,7 @@ use mufasa_records::files;
 use serde::Serialize;
 
 use crate::cli::link::{DriveArguments, StationArguments, VehicleArguments};
+use crate::ended::{DISAGREES, Ended, INTERRUPTED, cannot, complain, said};
 use crate::parameters_file;
 
 /// What `dt_max` is above the period of the drive, unless a file of parameters says otherwise, ns.
@@ -40,40 +39,36 @@ const FIRST_ATTEMPT: Duration = Duration::from_secs(2);
 /// The station in the process of the vehicle.
 const STATION: i64 = 1;
 
-/// Drives, and says how it went. `Err` says in words what is wrong with the arguments.
-pub fn vehicle(
-    arguments: &VehicleArguments,
-    stop: &AtomicBool,
-    out: &mut impl Write,
-) -> Result<u8, String> {
+/// Drives, and says how it went. The exit code.
+pub fn vehicle(arguments: &VehicleArguments, stop: &AtomicBool, out: &mut impl Write) -> Ended {
     let (drive, parameters) = drive(&arguments.drive, arguments.parameters.as_deref())?;
     prepare(arguments.json.as_deref())?;
     let offered = attacked(drive.clone(), &arguments.inject)?;
-    let [driven, offered] = [drive, offered].map(Played::new).map(words);
-    let (driven, offered) = (driven?, offered?);
+    let driven = Played::new(drive).map_err(said)?;
+    let offered = Played::new(offered).map_err(said)?;
     let jitter = || requester::Parameters {
         dt_max_ns: driven.period_ns().saturating_add(JITTER_NS),
         ..requester::Parameters::default()
     };
     let settings = run::settings(&driven, &parameters.unwrap_or_else(jitter));
     if let Some(raised) = raised_tau(&driven, settings.stages.tau) {
-        words(writeln!(out, "{raised}"))?;
+        writeln!(out, "{raised}")?;
     }
     let run = VehicleRun { id: arguments.id, settings, laps: arguments.laps };
     let mut tally = match &arguments.log {
         Some(file) => Tally::logging_to(Box::new(LineWriter::new(
-            File::create(file).map_err(|error| cannot(file, &error))?,
+            File::create(file).map_err(cannot(file, "written"))?,
         ))),
         None => Tally::default(),
     };
-    let clock = words(SharedClock::new())?;
+    let clock = SharedClock::new().map_err(said)?;
     let me = Address::Vehicle(arguments.id);
     let disturb = arguments.disturb.clone();
     let station = if let Some(url) = &arguments.broker {
-        let broker = words(Amqp::new(url, me))?;
+        let broker = Amqp::new(url, me).map_err(said)?;
         tell_unless_connected(url, &broker);
         let mut broker = Disturbed::new(broker, disturb);
-        words(run.run(&driven, clock, &mut broker, &mut tally, stop))?;
+        run.run(&driven, clock, &mut broker, &mut tally, stop).map_err(said)?;
         None
     } else {
         let hub = Hub::default();
@@ -81,41 +76,33 @@ pub fn vehicle(
         let mut of_station = hub.join(Address::Station(STATION));
         let channels = (&mut of_vehicle, &mut of_station);
         let plays = [&driven, &offered];
-        Some(words(run::both(
-            &run,
-            (STATION, !arguments.without_precheck),
-            plays,
-            clock,
-            channels,
-            &mut tally,
-            stop,
-        ))?)
+        let station = (STATION, !arguments.without_precheck);
+        let served = run::both(&run, station, plays, clock, channels, &mut tally, stop);
+        Some(served.map_err(said)?)
     };
     let summary = tally.summary();
     write_json(arguments.json.as_deref(), &summary)?;
-    let written =
-        writeln!(out, "{}", of_vehicle(&summary).trim_fmt()).and_then(|()| match &station {
-            Some(station) => writeln!(out, "{}", of_station(station).trim_fmt()),
-            None => Ok(()),
-        });
-    words(written)?;
+    writeln!(out, "{}", of_vehicle(&summary).trim_fmt())?;
+    if let Some(station) = &station {
+        writeln!(out, "{}", of_station(station).trim_fmt())?;
+    }
     Ok(code(&summary).max(never_connected(&summary.traffic)))
 }
 
-/// Serves until it is stopped, and says how it went. `Err` says in words what is wrong with the arguments.
+/// Serves until it is stopped, and says how it went. The exit code.
 pub fn station(
     arguments: &StationArguments,
     stop: &Arc<AtomicBool>,
     out: &mut impl Write,
-) -> Result<u8, String> {
+) -> Ended {
     let (drive, _) = drive(&arguments.drive, None)?;
     prepare(arguments.json.as_deref())?;
     let offered = attacked(drive.clone(), &arguments.inject)?;
-    let [clean, played] = [drive, offered].map(Played::new).map(words);
-    let (clean, played) = (clean?, played?);
+    let clean = Played::new(drive).map_err(said)?;
+    let played = Played::new(offered).map_err(said)?;
     let settings = run::settings(&clean, &requester::Parameters::default());
     let asks = Some(&settings).filter(|_| !arguments.without_precheck);
-    let mut broker = words(Amqp::new(&arguments.broker, Address::Station(arguments.id)))?;
+    let mut broker = Amqp::new(&arguments.broker, Address::Station(arguments.id)).map_err(said)?;
     tell_unless_connected(&arguments.broker, &broker);
     if let Some(seconds) = arguments.seconds {
         let stop = Arc::clone(stop);
@@ -124,11 +111,11 @@ pub fn station(
             stop.store(true, Ordering::Relaxed);
         });
     }
-    let clock = words(SharedClock::new())?;
-    let summary =
-        words(run::station(arguments.id, [&clean, &played], asks, clock, &mut broker, stop))?;
+    let clock = SharedClock::new().map_err(said)?;
+    let served = run::station(arguments.id, [&clean, &played], asks, clock, &mut broker, stop);
+    let summary = served.map_err(said)?;
     write_json(arguments.json.as_deref(), &summary)?;
-    words(writeln!(out, "{}", of_station(&summary).trim_fmt()))?;
+    writeln!(out, "{}", of_station(&summary).trim_fmt())?;
     Ok(never_connected(&summary.traffic))
 }
 
@@ -137,24 +124,24 @@ fn drive(
     arguments: &DriveArguments,
     parameters: Option<&Path>,
 ) -> Result<(Drive, Option<requester::Parameters>), String> {
-    let parameters = words(parameters.map(parameters_file::read).transpose())?;
+    let parameters = parameters.map(parameters_file::read).transpose().map_err(said)?;
     let stages = parameters.as_ref().map(|it| it.stages.clone()).unwrap_or_default();
     let options = Options { profile: arguments.profile, parameters: stages, ..Options::default() };
     if let Some(note) = parameters.as_ref().and_then(|it| it.note.as_ref()) {
-        complain(&mut io::stderr(), note);
+        complain(note);
     }
     let requester = parameters.map(|it| it.requester);
     if arguments.files.is_empty() {
-        return Ok((words(words(demo(&options))?.collect())?, requester));
+        return Ok((demo(&options).and_then(Stream::collect).map_err(said)?, requester));
     }
     let drives: Result<Vec<_>, _> = streams(&arguments.files, &options).into_iter().collect();
-    let mut drives = words(drives)?.into_iter();
+    let mut drives = drives.map_err(said)?.into_iter();
     match (drives.next(), drives.next()) {
         (Some(drive), None) => {
             if drive.ignores_options {
-                complain(&mut io::stderr(), IGNORED);
+                complain(IGNORED);
             }
-            Ok((words(drive.collect())?, requester))
+            Ok((drive.collect().map_err(said)?, requester))
         }
         _ => Err("the files are more than one drive, or none; give those of one".to_owned()),
     }
@@ -165,9 +152,10 @@ fn drive(
 fn attacked(drive: Drive, injections: &[Injection]) -> Result<Drive, String> {
     injections.iter().try_fold(drive, |drive, injection| {
         let clean = Stream::from(drive);
-        let mut attacked = words(words(inject(&clean, injection))?.collect())?;
+        let attacked = inject(&clean, injection).map_err(said)?;
+        let mut attacked = attacked.collect().map_err(said)?;
         for index in attacked.cycles.len()..clean.count() {
-            attacked.cycles.push(words(clean.cycle(index))?);
+            attacked.cycles.push(clean.cycle(index).map_err(said)?);
         }
         Ok(attacked)
     })
@@ -185,17 +173,9 @@ fn raised_tau(driven: &Played, tau_s: f64) -> Option<String> {
     })
 }
 
-fn words<T>(result: Result<T, impl ToString>) -> Result<T, String> {
-    result.map_err(|error| error.to_string())
-}
-
-fn cannot(file: &Path, error: &io::Error) -> String {
-    format!("{}: cannot be written: {error}", file.display())
-}
-
 /// Refuses a file that cannot be written before the drive, not after it.
 fn prepare(file: Option<&Path>) -> Result<(), String> {
-    file.map_or(Ok(()), |file| files::prepare_file(file).map_err(|error| cannot(file, &error)))
+    file.map_or(Ok(()), |file| files::prepare_file(file).map_err(cannot(file, "written")))
 }
 
 /// Says when the first attempt to reach the broker fails, or takes long; it is tried again and again.
@@ -210,12 +190,12 @@ fn tell_unless_connected(url: &str, broker: &Amqp) {
         if let Some(error) = health.last_error {
             let message =
                 format!("the broker at {host} cannot be reached, and is tried again: {error}");
-            return complain(&mut io::stderr(), &message);
+            return complain(&message);
         }
         thread::sleep(Duration::from_millis(10));
     }
     let message = format!("the broker at {host} does not answer, and is tried again");
-    complain(&mut io::stderr(), &message);
+    complain(&message);
 }
 
 /// Exit code 1 for who never had a connection.
@@ -225,8 +205,8 @@ fn never_connected(traffic: &Traffic) -> u8 {
 
 fn write_json(file: Option<&Path>, summary: &impl Serialize) -> Result<(), String> {
     let Some(file) = file else { return Ok(()) };
-    let text = words(serde_json::to_string_pretty(summary))? + "\n";
-    files::write(file, &text).map_err(|error| cannot(file, &error))
+    let text = serde_json::to_string_pretty(summary).map_err(said)? + "\n";
+    files::write(file, &text).map_err(cannot(file, "written"))
 }
 
 fn code(summary: &Summary) -> u8 {
@@ -237,7 +217,7 @@ fn code(summary: &Summary) -> u8 {
     if summary.uncovered.is_empty() {
         u8::from(lost || !summary.unsafe_by_stage.is_empty())
     } else {
-        3
+        DISAGREES
     }
 }
 

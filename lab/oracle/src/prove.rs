@@ -14,19 +14,16 @@ use std::path::Path;
 use indicatif::ProgressBar;
 
 use crate::document;
+use crate::ended::{Stopped, cannot, complain, said};
 use crate::spelling::near;
 use claim::{Claim, Status};
 use engines::ClaimSource;
-use mufasa_drives::check::complain;
 use mufasa_proofs::OVERFLOW_PANICS;
 use mufasa_records::files;
-pub use settings::Settings;
+pub use settings::{CBMC, Settings};
 
 /// Where the claims are written if all are judged and nobody names another file.
 pub const FILE: &str = "target/proofs/prove.json";
-
-/// Where `scripts/prove-wasm` writes what it found.
-pub const CBMC: &str = "target/proofs/cbmc.json";
 
 /// Name of the table in a document.
 pub const TABLE_NAME: &str = "mufasa prove";
@@ -60,33 +57,21 @@ impl End {
     }
 }
 
-/// Runs the engines, writes the table to `out` and what is wrong to `err`. Errors are those of
-/// writing to `out`.
-pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
-    let required = known(&settings.names)
-        .and_then(|()| document::has_place(settings.into.as_deref(), TABLE_NAME))
-        .and_then(|()| is_of_a_vehicle(settings))
-        .and_then(|()| files_are_there(settings))
-        .and_then(|()| settings.required.as_deref().map(required::read).transpose());
-    let required = match required {
-        Ok(required) => required,
-        Err(message) => {
-            complain(err, &message);
-            return Ok(End::BadInput);
-        }
-    };
+/// Runs the engines and writes the table to `out`. Errors: those of writing to `out`, and what makes proving of no use.
+pub fn run(settings: &Settings, out: &mut impl Write) -> Result<End, Stopped> {
+    known(&settings.names)?;
+    document::has_place(settings.into.as_deref(), TABLE_NAME)?;
+    is_of_a_vehicle(settings)?;
+    files_are_there(settings)?;
+    let required = settings.required.as_deref().map(required::read).transpose()?;
     let is_wanted = |source: ClaimSource, claim: &Claim| match &required {
         Some(ids) => ids.contains(&claim.id),
         None => source.is_wanted(&settings.names, claim),
     };
-    match engines::missing(settings, &is_wanted) {
-        // A document has the number of claims that were not run of each engine.
-        Ok(missing) if !settings.markdown => write!(out, "{}", tables::missing(&missing))?,
-        Ok(_) => {}
-        Err(problem) => {
-            complain(err, &problem.to_string());
-            return Ok(End::BadInput);
-        }
+    let missing = engines::missing(settings, &is_wanted).map_err(said)?;
+    // A document has the number of claims that were not run of each engine.
+    if !settings.markdown {
+        write!(out, "{}", tables::missing(&missing))?;
     }
     out.flush()?;
     let mut lines = Vec::new();
@@ -95,7 +80,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         match source.lines(settings, &is_wanted, &bar(source)) {
             Ok(more) => lines.extend(more),
             Err(problem) => {
-                complain(err, &format!("{}: {problem}", source.name()));
+                complain(&format!("{}: {problem}", source.name()));
                 end = End::BadInput;
             }
         }
@@ -110,17 +95,11 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     }
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
     write!(out, "{table}")?;
-    if let Some(path) = &settings.into
-        && let Err(error) = write_document(path, settings, &lines)
-    {
-        complain(err, &format!("{}: cannot be written: {error}", path.display()));
-        end = End::BadInput;
+    if let Some(path) = &settings.into {
+        write_document(path, settings, &lines).map_err(cannot(path, "written"))?;
     }
-    if let Some(path) = &settings.out
-        && let Err(error) = write_lines(path, &lines)
-    {
-        complain(err, &format!("{}: cannot be written: {error}", path.display()));
-        end = End::BadInput;
+    if let Some(path) = &settings.out {
+        write_lines(path, &lines).map_err(cannot(path, "written"))?;
     }
     Ok(end)
 }
@@ -132,11 +111,10 @@ fn files_are_there(settings: &Settings) -> Result<(), String> {
         return Err(format!("{}: is not there; scripts/prove-wasm writes {CBMC}", cbmc.display()));
     }
     let Some(out) = out else { return Ok(()) };
-    let cannot = |error| format!("{}: cannot be written: {error}", out.display());
     if let Some(folder) = out.parent() {
-        std::fs::create_dir_all(folder).map_err(cannot)?;
+        std::fs::create_dir_all(folder).map_err(cannot(out, "written"))?;
     }
-    files::prepare_file(out).map_err(cannot)
+    files::prepare_file(out).map_err(cannot(out, "written"))
 }
 
 /// Whether what is run natively is the code of a vehicle, if it is for a document: in the builds of tests an overflow

@@ -1,20 +1,15 @@
 //! The arguments of every command, and how their values are read.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use mufasa_exploration::bounds::Bounds;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::services::configuration::Configuration;
 
-use mufasa_drives::check::complain;
 use mufasa_drives::{Attack, GridSize, Injection, Options, Sensor, Tail};
-use mufasa_records::names;
 
-use crate::limits::{number, whole};
-use crate::prove;
+use crate::ended::complain;
+use crate::limits::{configuration, number, profile, whole};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -138,61 +133,6 @@ pub(super) struct ComposeArguments {
 
 #[derive(Args)]
 #[command(after_help = "\
-Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model and
-implementation disagree, or the two engines do.")]
-pub(super) struct ExploreArguments {
-    /// Profile; by default both.
-    #[arg(long, value_parser = profile(), ignore_case = true)]
-    pub(super) profile: Option<Profile>,
-    /// How much: small takes minutes, large hours.
-    #[arg(long, default_value = "small", value_parser = bounds(), ignore_case = true)]
-    pub(super) bounds: Bounds,
-    /// Only this world.
-    #[arg(long, value_name = "NAME")]
-    pub(super) world: Option<String>,
-    /// Put the tables into a document, between the lines that mark their place.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
-    pub(super) into: Option<PathBuf>,
-    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails [default: exploration].
-    #[arg(long, value_name = "DIR")]
-    pub(super) out: Option<PathBuf>,
-}
-
-#[derive(Args)]
-#[command(after_help = "\
-Engines: z3 (theorems over the reals), exploration (the protocol), harnesses (of impl; most are proved
-only where scripts/prove-wasm was run before, else tested); those that are not here are listed as not run.
-The first lines say which are missing, and where they come from.
-
-Exit codes: 0 whatever was run is proved, or tested where no engine proves it, 1 something is refuted or
-not known, 2 bad input or an engine broke down. With --require 1 also where a claim of the list is not
-proved, and 4 where it is not proved because an engine is missing.")]
-pub(super) struct ProveArguments {
-    /// Only claims whose id contains one of these, or of such an engine.
-    pub(super) names: Vec<String>,
-    /// Run the claims of a list, such as proofs/required.txt, whose ids are one a line: all have to be proved.
-    #[arg(long = "require", value_name = "FILE", conflicts_with = "names")]
-    pub(super) required: Option<PathBuf>,
-    /// What scripts/prove-wasm wrote.
-    #[arg(long, value_name = "FILE", default_value = prove::CBMC)]
-    pub(super) cbmc: PathBuf,
-    /// The checkout whose compiled code that has to be about.
-    #[arg(long, value_name = "DIR", default_value = ".")]
-    pub(super) sources: PathBuf,
-    /// Write the claims with their verdicts as JSON Lines [default: target/proofs/prove.json; with NAMES or
-    /// --require none].
-    #[arg(long, value_name = "FILE")]
-    pub(super) out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["names", "required"])]
-    pub(super) into: Option<PathBuf>,
-    /// Print the table as Markdown.
-    #[arg(long)]
-    pub(super) markdown: bool,
-}
-
-#[derive(Args)]
-#[command(after_help = "\
 Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.")]
 pub(super) struct VectorsArguments {
     /// Folder; files of other names there stay [default: vectors].
@@ -251,30 +191,6 @@ impl CheckArguments {
     }
 }
 
-pub(super) fn profile() -> impl TypedValueParser<Value = Profile> {
-    one_of([Profile::PAPER, Profile::HARDENED], names::profile)
-}
-
-fn configuration() -> impl TypedValueParser<Value = Configuration> {
-    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
-    one_of([Local, MotRemote, AllRemote, PlanRemote], names::configuration)
-}
-
-fn bounds() -> impl TypedValueParser<Value = Bounds> {
-    one_of([Bounds::Small, Bounds::Large], Bounds::name)
-}
-
-/// One of these values by its name in the records.
-pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
-    values: [T; N],
-    name: fn(T) -> &'static str,
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(values.map(name)).try_map(move |given| {
-        let same = |value: &T| name(*value).eq_ignore_ascii_case(&given);
-        values.into_iter().find(same).ok_or("unknown name")
-    })
-}
-
 /// The folder that is to be written, which is said first where nobody named it.
 pub(super) fn folder_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
     named.unwrap_or_else(|| unnamed(usual, "/", "folder"))
@@ -287,6 +203,6 @@ pub(super) fn file_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
 
 fn unnamed(usual: &str, end: &str, kind: &str) -> PathBuf {
     let note = format!("writes into {usual}{end}; --out names another {kind}");
-    complain(&mut io::stderr(), &note);
+    complain(&note);
     PathBuf::from(usual)
 }

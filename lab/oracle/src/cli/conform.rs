@@ -7,8 +7,7 @@ use clap::{Args, Subcommand};
 use mufasa_conform::Kind;
 use mufasa_model::input::cycle::Profile;
 
-use super::arguments::{one_of, profile};
-use crate::limits::{number, whole};
+use crate::limits::{number, one_of, profile, whole};
 
 /// What a program under test has to do, and what the exit codes say.
 const CONFORM_HELP: &str = "\

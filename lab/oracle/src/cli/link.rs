@@ -7,8 +7,7 @@ use mufasa_drives::Injection;
 use mufasa_link::transport::disturbed::Disturbance;
 use mufasa_model::input::cycle::Profile;
 
-use super::arguments::profile;
-use crate::limits::whole;
+use crate::limits::{profile, whole};
 
 /// Drives a drive with requester and monitor, beside a station that computes for it: in the same process,
 /// or over a broker.

@@ -1,7 +1,7 @@
 //! The search for collisions (`mufasa_sim::experiment::falsify`).
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -24,14 +24,14 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{End, RunError};
 use serde::Deserialize;
 
-use super::codes::{FAILED, INTERRUPTED, refused, say};
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
 use super::replay::{kind, variant};
 use super::report::{FailedRun, Leaves, Section};
-use super::tables;
-use super::text::{csv, json, said};
-use super::{maps, pool, prepared};
+use super::text::{csv, json};
+use super::work::{pool, prepared};
+use super::{maps, tables};
+use crate::ended::{Ended, FAILED, INTERRUPTED, said, say};
 use crate::limits::whole;
 
 /// Runs if nothing is said.
@@ -117,71 +117,42 @@ impl Caller for Bar<'_> {
     }
 }
 
-/// Searches until `stop` is set at the latest, writes the table to `out`, and files. The exit code. Errors: those of
-/// writing to `out`.
-pub fn run(
-    arguments: &FalsifyArguments,
-    stop: &AtomicBool,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
+/// Searches until `stop` is set at the latest, writes the table to `out`, and files. The exit code.
+pub fn run(arguments: &FalsifyArguments, stop: &AtomicBool, out: &mut impl Write) -> Ended {
     if let Some(shard) = arguments.shard {
-        let made = search(arguments, stop, |town, options, caller| {
+        let (_, options, made) = search(arguments, stop, |town, options, caller| {
             let rounds = part(town, options, shard, caller)?;
             Ok((rounds, caller.is_interrupted()))
-        });
-        return match made {
-            Ok((_, options, made)) => write_part(arguments, options, shard, &made, out, err),
-            Err(message) => Ok(refused(&message, err)),
-        };
+        })?;
+        return write_part(arguments, options, shard, &made, out);
     }
-    let made =
-        search(arguments, stop, |town, options, caller| experiment(town, options.clone(), caller));
-    ended(made.map(|(town, _, made)| (town, made)), arguments.out.as_deref(), out, err)
+    let (town, _, made) =
+        search(arguments, stop, |town, options, caller| experiment(town, options.clone(), caller))?;
+    ended(&town, &made, arguments.out.as_deref(), out)
 }
 
 /// Puts parts together: what comes out is, byte for byte, what one run of all rounds would write. What was found is
 /// shrunk here, as one run shrinks what no round before it had found. Its exit code.
-/// Errors: those of writing to `out`.
-pub(super) fn merge(
-    arguments: &MergeArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
+pub(super) fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
     let folder = arguments.out.as_deref();
-    let made = parts::read(&arguments.parts).and_then(|whole: Part<Options>| {
-        prepared(folder, FOUND)?;
-        let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
-        let mut made = Falsified::nothing(whole.options);
-        for number in 0..made.options.rounds.unwrap_or(0) {
-            let id = id(number);
-            let round =
-                whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
-            let round = Round::deserialize(round)
-                .map_err(|error| format!("{id}: {error}; write the part anew"))?;
-            made.add(&town, round, &()).map_err(said)?;
-        }
-        Ok((town, made))
-    });
-    ended(made, folder, out, err)
+    let whole: Part<Options> = parts::read(&arguments.parts)?;
+    prepared(folder, FOUND)?;
+    let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
+    let mut made = Falsified::nothing(whole.options);
+    for number in 0..made.options.rounds.unwrap_or(0) {
+        let id = id(number);
+        let round = whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
+        let round = Round::deserialize(round)
+            .map_err(|error| format!("{id}: {error}; write the part anew"))?;
+        made.add(&town, round, &()).map_err(said)?;
+    }
+    ended(&town, &made, folder, out)
 }
 
 /// Writes the table, the collisions and the files. The exit code.
-fn ended(
-    made: Result<(Town, Falsified), String>,
-    folder: Option<&Path>,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let written = made.and_then(|(town, made)| {
-        let files = leaves(&town, &made, folder.is_some())?.write(folder)?;
-        Ok((made, files))
-    });
-    let (made, files) = match written {
-        Ok(made) => made,
-        Err(message) => return Ok(refused(&message, err)),
-    };
-    write!(out, "{}", tables::falsified(&made).text(None))?;
+fn ended(town: &Town, made: &Falsified, folder: Option<&Path>, out: &mut impl Write) -> Ended {
+    let files = leaves(town, made, folder.is_some())?.write(folder)?;
+    write!(out, "{}", tables::falsified(made).text(None))?;
     writeln!(
         out,
         "{} runs in {} rounds, {} collided, {} of them at random; {} runs to shrink {} collisions",
@@ -257,16 +228,15 @@ fn write_part(
     shard: Shard,
     (rounds, interrupted): &(BTreeMap<u64, Round>, bool),
     out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
+) -> Ended {
     let value = |(number, round): (&u64, &Round)| Ok((id(*number), serde_json::to_value(round)?));
     let runs = rounds.iter().map(value).collect::<Result<_, serde_json::Error>>();
-    let (experiment, runs) = (NAME.to_owned(), runs.map_err(io::Error::other)?);
+    let (experiment, runs) = (NAME.to_owned(), runs.map_err(said)?);
     let (interrupted, checks) = (*interrupted, Checks::default());
     let version = parts::version();
     let part = Part { version, experiment, options, shard, interrupted, runs, checks };
     let folder = arguments.out.as_deref().unwrap_or(Path::new("."));
-    let code = parts::write(folder, &part, "rounds", out, err)?;
+    let code = parts::write(folder, &part, "rounds", out)?;
     if !interrupted || code != 0 {
         return Ok(code);
     }

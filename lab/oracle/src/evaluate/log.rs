@@ -24,7 +24,7 @@ use mufasa_sim::traffic::agent::Kind;
 use serde_json::{Value, json};
 
 use self::foxglove::{Color, Scene};
-use super::text::said;
+use crate::ended::said;
 
 /// The channels, in the order of their ids from 0.
 const CHANNELS: [Channel; 6] = [

@@ -7,7 +7,7 @@ use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::map::ulm::lehr;
 
-use super::text::said;
+use crate::ended::said;
 
 /// The map of a folder; the town, where none is named.
 pub(super) fn of(folder: Option<&Path>) -> Result<Town, String> {

@@ -2,17 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::select::{Part, Shard};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::codes::{BAD_INPUT, DISAGREES};
+use crate::ended::{DISAGREES, Ended, cannot, said};
 
 /// This program, as `mufasa --version` has it.
 pub(super) fn version() -> String {
@@ -30,21 +29,16 @@ pub(super) fn shard(text: &str) -> Result<Shard, String> {
 }
 
 /// Writes a part as a file that cannot be taken for the whole; `what` its runs are. The exit code.
-/// Errors: those of writing to `out`.
 pub(super) fn write<O: Serialize>(
     folder: &Path,
     part: &Part<O>,
     what: &str,
     out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
+) -> Ended {
     let Shard { index, of } = part.shard;
     let file = folder.join(format!("{}.{index}-of-{of}.part.json", part.experiment));
-    let text = serde_json::to_string_pretty(part).map_err(io::Error::other)? + "\n";
-    if let Err(error) = files::write(&file, &text) {
-        complain(err, &format!("{}: cannot be written: {error}", file.display()));
-        return Ok(BAD_INPUT);
-    }
+    let text = serde_json::to_string_pretty(part).map_err(said)? + "\n";
+    files::write(&file, &text).map_err(cannot(&file, "written"))?;
     writeln!(out, "{}: {} {what}, part {index} of {of}", file.display(), part.runs.len())?;
     Ok(if part.checks.disagreements.is_empty() { 0 } else { DISAGREES })
 }

@@ -1,13 +1,12 @@
 //! One run as a page (`mufasa_sim::replay`).
 
 use std::convert::Infallible;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use mufasa::input::profile::Profile;
-use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
@@ -22,10 +21,9 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
-use super::codes::refused;
 use super::log::Log;
 use super::maps;
-use super::text::said;
+use crate::ended::{Ended, cannot, complain, said};
 use crate::limits::whole;
 
 /// Other vehicles if nothing is said.
@@ -84,23 +82,14 @@ pub struct ReplayArguments {
 /// The runs of an experiment by its name and its size, which is made of its defaults; none, if there is no such one.
 pub(super) type Jobs = fn(&str, &dyn Fn(Options) -> Options, &Town) -> Vec<Job>;
 
-/// Makes the run and writes its page, and its log. Returns the exit code. Errors: those of writing to `out`.
-pub fn run(
-    arguments: &ReplayArguments,
-    jobs: Jobs,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let written = job(arguments, jobs).and_then(|(town, job)| write(arguments, &town, &job));
-    match written {
-        Ok((name, outcome, files)) => {
-            let files: Vec<String> = files.iter().map(|it| it.display().to_string()).collect();
-            let files = files.join(", ");
-            writeln!(out, "{name}: {:?} at {:.2} s, {files}", outcome.end, outcome.t)?;
-            Ok(0)
-        }
-        Err(message) => Ok(refused(&message, err)),
-    }
+/// Makes the run and writes its page, and its log. Returns the exit code.
+pub fn run(arguments: &ReplayArguments, jobs: Jobs, out: &mut impl Write) -> Ended {
+    let (town, job) = job(arguments, jobs)?;
+    let (name, outcome, files) = write(arguments, &town, &job)?;
+    let files: Vec<String> = files.iter().map(|it| it.display().to_string()).collect();
+    let files = files.join(", ");
+    writeln!(out, "{name}: {:?} at {:.2} s, {files}", outcome.end, outcome.t)?;
+    Ok(0)
 }
 
 /// The run that is meant, and its map. Errors: there is none.
@@ -139,10 +128,10 @@ fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job), String> {
 
 /// A collision in a file.
 fn found(file: &Path) -> Result<Found, String> {
-    let said = |error: String| format!("{}: {error}", file.display());
-    let text = std::fs::read_to_string(file).map_err(|error| said(error.to_string()))?;
-    let found = serde_json::from_str::<Found>(&text);
-    found.map_err(|error| said(format!("no collision: {error}")))
+    let text =
+        std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    serde_json::from_str(&text)
+        .map_err(|error| format!("{}: no collision: {error}", file.display()))
 }
 
 /// A run of an experiment.
@@ -186,12 +175,11 @@ fn write(
     let file = arguments.out.clone();
     let file = file.unwrap_or_else(|| {
         let usual = format!("{}.html", name.replace('/', "-"));
-        complain(&mut io::stderr(), &format!("writes into {usual}; --out names another file"));
+        complain(&format!("writes into {usual}; --out names another file"));
         PathBuf::from(usual)
     });
     for file in [Some(&file), arguments.mcap.as_ref()].into_iter().flatten() {
-        let cannot = |error| format!("{}: cannot be written: {error}", file.display());
-        files::prepare_file(file).map_err(cannot)?;
+        files::prepare_file(file).map_err(cannot(file, "written"))?;
     }
     let mut both = Both { replay: Replay::default(), log: None };
     let mut job = job.clone();
@@ -201,12 +189,10 @@ fn write(
     }
     let outcome = job.run(town, &mut both).map_err(said)?;
     let page = both.replay.page(town, &name, job.route, &outcome);
-    let say =
-        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
-    files::write(&file, &page).map_err(|error| say(&file, error))?;
+    files::write(&file, &page).map_err(cannot(&file, "written"))?;
     let mut written = vec![file];
     if let (Some(file), Some(log)) = (&arguments.mcap, both.log) {
-        files::write_bytes(file, &log.finish()?).map_err(|error| say(file, error))?;
+        files::write_bytes(file, &log.finish()?).map_err(cannot(file, "written"))?;
         written.push(file.clone());
     }
     Ok((name, outcome, written))

@@ -11,6 +11,7 @@ use mufasa_records::files;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::run::End;
 
+use crate::ended::cannot;
 use crate::rows::Rows;
 
 /// The name of the page.
@@ -77,12 +78,8 @@ impl Leaves<'_> {
     pub(super) fn write(&self, folder: Option<&Path>) -> Result<Vec<PathBuf>, String> {
         let Some(folder) = folder else { return Ok(Vec::new()) };
         let mut written = Vec::new();
-        let mut wrote = |file: PathBuf, done: io::Result<()>| match done {
-            Ok(()) => {
-                written.push(file);
-                Ok(())
-            }
-            Err(error) => Err(format!("{}: cannot be written: {error}", file.display())),
+        let mut wrote = |file: PathBuf, done: io::Result<()>| {
+            done.map_err(cannot(&file, "written")).map(|()| written.push(file))
         };
         for (name, text) in &self.files {
             let file = folder.join(name);

@@ -1,6 +1,6 @@
 //! The search for avoidable collisions with one other (`mufasa_sim::experiment::scenes`).
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -10,12 +10,12 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::scenes::{NAME, Options, Scenes};
 use mufasa_sim::vehicle::TAU_S;
 
-use super::codes::{FAILED, refused, say};
 use super::replay::variant;
 use super::report::Leaves;
 use super::tables;
 use super::text::{csv, json};
-use super::{pool, prepared};
+use super::work::{pool, prepared};
+use crate::ended::{Ended, FAILED, say};
 use crate::limits::{number, whole};
 
 /// Scenes if nothing is said, and those that are made at once where a time is said.
@@ -64,16 +64,9 @@ pub struct ScenesArguments {
     pub out: Option<PathBuf>,
 }
 
-/// Searches, writes the table to `out`, and files. The exit code. Errors: those of writing to `out`.
-pub fn run(
-    arguments: &ScenesArguments,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let (made, names) = match search(arguments) {
-        Ok(made) => made,
-        Err(message) => return Ok(refused(&message, err)),
-    };
+/// Searches, writes the table to `out`, and files. The exit code.
+pub fn run(arguments: &ScenesArguments, out: &mut impl Write) -> Ended {
+    let (made, names) = search(arguments)?;
     write!(out, "{}", tables::scenes(&made).text(None))?;
     say(&names, out)?;
     let is_hardened = made.options.profile == Variant::Hardened;

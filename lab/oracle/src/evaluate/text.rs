@@ -1,8 +1,8 @@
-//! Lines and errors as text.
-
-use std::fmt::Display;
+//! Lines as text.
 
 use serde::Serialize;
+
+use crate::ended::said;
 
 /// A line of names, and a line of each.
 pub(super) fn csv<T: Serialize>(lines: &[T]) -> Result<String, String> {
@@ -14,9 +14,4 @@ pub(super) fn csv<T: Serialize>(lines: &[T]) -> Result<String, String> {
 /// Spread over lines, with one at its end.
 pub(super) fn json(of: &impl Serialize) -> Result<String, String> {
     Ok(serde_json::to_string_pretty(of).map_err(said)? + "\n")
-}
-
-/// An error in words.
-pub(super) fn said(error: impl Display) -> String {
-    error.to_string()
 }

@@ -3,8 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What an engine says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// What an engine says; of two answers on one claim the one that comes first here counts, but a refutation before all. Who
+/// does not know what it should counts more than a test.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 pub enum Status {
     /// True of the whole domain.
     #[serde(rename = "proved")]
@@ -36,18 +39,6 @@ impl Status {
             Self::Unknown => "unknown",
             Self::Tested => "tested",
             Self::NotRun => "not run",
-        }
-    }
-
-    /// Which of two answers on one claim counts: the one that comes first here. Who does not know
-    /// what it should counts more than a test.
-    const fn rank(self) -> u8 {
-        match self {
-            Self::Refuted => 0,
-            Self::Proved => 1,
-            Self::Unknown => 2,
-            Self::Tested => 3,
-            Self::NotRun => 4,
         }
     }
 }
@@ -125,7 +116,7 @@ impl Claim {
 
     /// Takes the answers of several engines: the one that counts first, then the others.
     pub fn answered(self, mut answers: Vec<EngineAnswer>) -> Self {
-        answers.sort_by_key(|answer| answer.status.rank());
+        answers.sort_by_key(|answer| (answer.status != Status::Refuted, answer.status));
         let mut answers = answers.into_iter();
         match answers.next() {
             Some(answer) => Self { answer, others: answers.collect(), ..self },

@@ -1,34 +1,19 @@
 //! The demo: what it says and draws, and that the documents show it.
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use mufasa_oracle::document;
 use roxmltree::Document;
 
-fn mufasa(arguments: &[&str], folder: &Path) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    command.args(arguments).current_dir(folder).output().unwrap()
-}
+use crate::kit::{Said, folder, said, write};
 
 #[test]
 fn without_arguments_the_demo_shows_what_it_should() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("demo");
-    // What an earlier run drew is not looked at.
-    fs::remove_dir_all(&folder)
-        .or_else(|error| match error.kind() {
-            ErrorKind::NotFound => Ok(()),
-            _ => Err(error),
-        })
-        .unwrap();
-    fs::create_dir_all(&folder).unwrap();
-    let output = mufasa(&[], &folder);
-    let [text, complaints] =
-        [output.stdout, output.stderr].map(|it| String::from_utf8(it).unwrap());
-    let said = "mufasa: no command, so the demo, which writes into mufasa-demo/\n";
-    assert_eq!((output.status.code(), complaints.as_str()), (Some(0), said), "{text}");
+    let folder = folder("demo");
+    let Said { code, out: text, err } = said(&folder, &[]);
+    let words = "mufasa: no command, so the demo, which writes into mufasa-demo/\n";
+    assert_eq!((code, err.as_str()), (Some(0), words), "{text}");
     let (hardened, paper) = text.split_once("PAPER PROFILE").unwrap();
     for (attack, stage) in [("wrong-map", "ii"), ("empty-tracks", "iv"), ("ghost-tracks", "i")] {
         let (_, told) = hardened.split_once(&format!("{attack}: from")).unwrap();
@@ -53,8 +38,7 @@ fn without_arguments_the_demo_shows_what_it_should() {
     // The command that it names next works.
     let (_, more) = text.split_once("more: mufasa ").unwrap();
     let more: Vec<_> = more.lines().next().unwrap().split(' ').collect();
-    let output = mufasa(&more, &folder);
-    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    said(&folder, &more).has(1, "", "");
 }
 
 /// The table of `docs/drives.md` and the picture of the README are what the demo says and draws;
@@ -82,9 +66,7 @@ fn the_documents_show_it(hardened: &str, paper: &str, picture: &str) {
 
 #[test]
 fn a_demo_that_cannot_write_says_so() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    fs::write(folder.join("file"), "").unwrap();
-    let output = mufasa(&["demo", "--out", "file"], folder);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("file"));
+    let folder = folder("file");
+    write(&folder, "file", "");
+    said(&folder, &["demo", "--out", "file"]).has(2, "", "file");
 }

@@ -14,6 +14,7 @@ use mufasa_records::{self as json, Record};
 use serde_json::Value;
 
 use crate::kit::{folder, said};
+use crate::schemas::{assert_valid, validators};
 
 fn kept(name: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vectors/offloading").join(name);
@@ -91,6 +92,7 @@ fn the_program_shows_verdicts_and_writes_what_it_found() {
     }
 }
 
+/// And what is written is what its schema says.
 #[test]
 fn nothing_is_found_in_the_hardened_profile() {
     let folder = folder("hardened");
@@ -103,6 +105,7 @@ fn nothing_is_found_in_the_hardened_profile() {
     assert_eq!(files, ["exploration.json", "exploration.md"], "no counterexample");
     let json = fs::read_to_string(folder.join("exploration.json")).unwrap();
     let reports: Value = serde_json::from_str(&json).unwrap();
+    assert_valid(&validators()["exploration"], &reports);
     assert_eq!(reports[0]["profile"], "hardened");
     assert_eq!(reports[0]["worlds"][0]["states"], 5073);
     for property in reports[0]["properties"].as_array().unwrap() {

@@ -6,8 +6,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::kit::folder;
-use crate::kit::run;
+use crate::kit::{folder, said};
 use serde_json::Value;
 
 /// A search in which nothing is checked, so that it finds much; sent a signal once it has. What it said.
@@ -50,8 +49,7 @@ fn an_interrupted_search_leaves_what_it_found() {
     let kept: Vec<_> = kept.collect();
     assert_eq!(kept.len(), made["found"].as_array().expect("a list").len());
     let replay = ["evaluate", "replay", kept[0].to_str().expect("a name"), "--out", "page.html"];
-    let again = run(&folder, &replay);
-    assert!(String::from_utf8_lossy(&again.stdout).contains("Collided"), "{again:?}");
+    said(&folder, &replay).has(0, "Collided", "");
 }
 
 #[test]
@@ -65,8 +63,6 @@ fn an_interrupted_part_holds_what_was_found_and_is_no_part() {
     let rounds = part["runs"].as_object().expect("rounds").values();
     let found = rounds.map(|it| it["found"].as_array().expect("a list").len()).sum::<usize>();
     assert!(found > 0, "{text}");
-    let merged = run(&folder, &["merge", file]);
-    assert_eq!(merged.status.code(), Some(2));
-    let why = String::from_utf8_lossy(&merged.stderr).into_owned();
-    assert!(why.contains(file) && why.contains("it was interrupted, and is no part"), "{why}");
+    let why = format!("{file}: it was interrupted, and is no part");
+    said(&folder, &["merge", file]).has(2, "", &why);
 }

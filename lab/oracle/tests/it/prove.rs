@@ -2,31 +2,29 @@
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-use crate::kit::folder;
+use crate::kit::{Said, folder, write};
 use mufasa_oracle::document;
 use mufasa_oracle::prove::{SOURCES, TABLE_NAME, sources, tables};
 use mufasa_theorems::theorem;
 
-fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
+fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Said {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
     command.arg("prove").args(arguments).arg("--out").arg(folder.join("prove.json"));
     if let Some(path) = path {
         command.env("PATH", path);
     }
-    command.output().expect("the program runs")
+    Said::of(command.output().expect("the program runs"))
 }
 
 #[test]
 fn without_solvers_nothing_is_proved() {
     let folder = folder("prove-without");
-    let output = prove(&["z3"], Some(""), &folder);
-    assert_eq!(output.status.code(), Some(0));
-    let text = String::from_utf8(output.stdout).expect("text");
     let all = theorem::all().count();
     let last = format!("0 proved, 0 refuted, 0 unknown, 0 tested, {all} not run");
-    assert!(all > 50 && text.contains(&last), "{text}");
+    prove(&["z3"], Some(""), &folder).has(0, &last, "");
+    assert!(all > 50);
     let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
     assert_eq!(lines.matches("\"verdict\":\"not run\"").count(), all);
 }
@@ -51,8 +49,7 @@ fn a_refuted_harness_is_no_success() {
     for (verdict, code) in [("proved", 0), ("refuted", 1), ("unknown", 1), ("perhaps", 2)] {
         std::fs::write(&cbmc, compiled(verdict, &here)).expect("the file");
         let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
-        let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
-        assert_eq!(output.status.code(), Some(code), "{verdict}: {output:?}");
+        prove(&["latency", "--cbmc", file, "--sources", root], None, &folder).has(code, "", "");
     }
 }
 
@@ -62,10 +59,8 @@ fn a_proof_of_other_sources_counts_nothing() {
     let cbmc = folder.join("cbmc.json");
     std::fs::write(&cbmc, compiled("proved", "0123456789abcdef")).expect("the file");
     let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
-    let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let text = String::from_utf8(output.stdout).expect("text");
-    assert!(text.contains("0 proved, 0 refuted, 0 unknown, 1 tested, 0 not run"), "{text}");
+    let told = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
+    told.has(0, "0 proved, 0 refuted, 0 unknown, 1 tested, 0 not run", "");
     let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
     assert!(lines.contains("of other sources"), "{lines}");
 }
@@ -129,35 +124,24 @@ fn the_document_is_of_these_sources_or_that_is_said() {
     }
 }
 
-/// Runs a list of required claims; the exit code, what is printed, and what is said of mistakes.
-fn require(
-    folder: &Path,
-    list: &str,
-    more: &[&str],
-    path: Option<&str>,
-) -> (Option<i32>, String, String) {
-    let file = folder.join("list.txt");
-    std::fs::write(&file, list).expect("the file");
-    let file = file.to_str().expect("a plain path");
-    let output = prove(&[&["--require", file], more].concat(), path, folder);
-    let [out, err] = [output.stdout, output.stderr].map(|it| String::from_utf8(it).expect("text"));
-    (output.status.code(), out, err)
+/// Runs a list of required claims.
+fn require(folder: &Path, list: &str, more: &[&str], path: Option<&str>) -> Said {
+    let file = write(folder, "list.txt", list);
+    prove(&[&["--require", &file], more].concat(), path, folder)
 }
 
 #[test]
 fn a_required_claim_without_its_engine_is_told_first() {
     let folder = folder("prove-required-missing");
     let list = "# of an engine that is not here\ns_b_grows_with_v # z3\n\n";
-    let (code, out, _) = require(&folder, list, &[], Some(""));
-    assert_eq!(code, Some(4), "{out}");
-    assert!(out.starts_with("z3 is missing (claims: 1): Debian's package z3"), "{out}");
-    assert!(out.contains("list.txt: 0 of 1 are proved\n"), "{out}");
-    assert!(out.contains("  s_b_grows_with_v: z3 is missing\n"), "{out}");
+    let told = require(&folder, list, &[], Some(""));
+    let words = "list.txt: 0 of 1 are proved\n  s_b_grows_with_v: z3 is missing\n";
+    told.has(4, words, "");
+    let first = "z3 is missing (claims: 1): Debian's package z3";
+    assert!(told.out.starts_with(first), "{}", told.out);
     // An engine that is compiled in is never missing.
-    let (code, out, _) =
-        require(&folder, "requester::verify_an_error_is_told_as_unsafe\n", &[], Some(""));
-    assert_eq!(code, Some(0), "{out}");
-    assert!(out.contains("list.txt: 1 of 1 are proved\n"), "{out}");
+    let list = "requester::verify_an_error_is_told_as_unsafe\n";
+    require(&folder, list, &[], Some("")).has(0, "list.txt: 1 of 1 are proved\n", "");
 }
 
 #[test]
@@ -177,10 +161,10 @@ fn a_required_claim_has_to_be_proved() {
         ("refuted", other, 4),
     ] {
         std::fs::write(&cbmc, compiled(verdict, of)).expect("the file");
-        let (found, out, _) = require(&folder, id, &more, None);
-        assert_eq!(found, Some(code), "{verdict}: {out}");
-        let names_it = out.starts_with("cbmc-wasm is missing (claims: 1): scripts/install-provers");
-        assert_eq!(names_it, code == 4, "{out}");
+        let told = require(&folder, id, &more, None);
+        told.has(code, "", "");
+        let missing = "cbmc-wasm is missing (claims: 1): scripts/install-provers";
+        assert_eq!(told.out.starts_with(missing), code == 4, "{}", told.out);
     }
 }
 
@@ -190,9 +174,9 @@ fn a_list_of_nothing_or_of_no_claim_is_bad_input() {
         ("# nothing\n", "requires nothing"),
         ("s_b_grows_with_v\ns_b_growz\n", "s_b_growz: there is no such claim"),
     ] {
-        let (code, out, told) = require(&folder("prove-required-bad"), list, &[], Some(""));
-        assert_eq!((code, out.len()), (Some(2), 0), "{out}");
-        assert!(told.trim_end().ends_with(said), "{told}");
+        let told = require(&folder("prove-required-bad"), list, &[], Some(""));
+        told.has(2, "", &format!("{said}\n"));
+        assert!(told.out.is_empty(), "{}", told.out);
     }
 }
 
@@ -254,10 +238,9 @@ fn a_name_of_nothing_is_bad_input() {
         ),
         (&["harneses"], "harneses: nothing has such a name; is harnesses meant?"),
     ] {
-        let output = prove(names, Some(""), &folder("prove-none"));
-        let told = String::from_utf8(output.stderr).expect("text");
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
-        assert!(told.starts_with(&format!("mufasa: {said}")), "{told}");
+        let told = prove(names, Some(""), &folder("prove-none"));
+        told.has(2, "", &format!("mufasa: {said}"));
+        assert!(told.out.is_empty(), "{}", told.out);
     }
 }
 
@@ -266,12 +249,11 @@ fn a_name_of_nothing_is_bad_input() {
 fn names_are_taken_as_the_table_prints_them() {
     let folder = folder("prove-printed");
     for name in ["s b grows with v", "s_b_grows_with_v"] {
-        let output = prove(&[name], Some(""), &folder);
-        let text = String::from_utf8(output.stdout).expect("text");
-        assert_eq!(output.status.code(), Some(0), "{name}");
+        let told = prove(&[name], Some(""), &folder);
+        told.has(0, " 1 not run", "");
+        let text = told.out;
         let row = text.lines().skip_while(|line| !line.trim_start().starts_with("id ")).nth(1);
         assert!(row.is_some_and(|row| row.contains("s b grows with v")), "{text}");
-        assert!(text.contains(" 1 not run"), "{text}");
     }
 }
 
@@ -282,8 +264,8 @@ fn a_run_of_names_writes_where_it_is_told_only() {
     let run = |more: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
         let command = command.args(["prove", "z3"]).args(more).env("PATH", "");
-        let output = command.current_dir(&folder).output().expect("the program runs");
-        assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0), "{output:?}");
+        let told = Said::of(command.current_dir(&folder).output().expect("the program runs"));
+        assert_eq!((told.code, told.err.as_str()), (Some(0), ""));
         std::fs::read_dir(&folder).expect("a folder").count()
     };
     assert_eq!(run(&[]), 0);

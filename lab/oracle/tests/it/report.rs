@@ -3,16 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use crate::kit::folder;
-use crate::kit::run;
+use crate::kit::{folder, said};
 use mcap::{MessageStream, Schema};
 use roxmltree::Document;
 use serde_json::Value;
 
 fn done(folder: &Path, code: i32, arguments: &[&str]) -> String {
-    let output = run(folder, arguments);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?} {output:?}");
-    String::from_utf8(output.stdout).expect("UTF-8")
+    let told = said(folder, arguments);
+    told.has(code, "", "");
+    told.out
 }
 
 fn text(folder: &Path, name: &str) -> String {
@@ -37,8 +36,8 @@ const SMALL: [&str; 6] = ["--scenarios", "1", "--vehicles", "8", "--out", "resul
 fn a_folder_has_one_page_with_a_section_of_each_experiment() {
     let folder = folder("page");
     let evaluate = |experiment: &str| {
-        let said = run(&folder, &[&["evaluate", experiment], &SMALL[..]].concat());
-        assert!(matches!(said.status.code(), Some(0 | 1)), "{said:?}");
+        let told = said(&folder, &[&["evaluate", experiment], &SMALL[..]].concat());
+        assert!(matches!(told.code, Some(0 | 1)), "{}", told.err);
     };
     evaluate("failures");
     let one = text(&folder, "results/report.html");
@@ -123,11 +122,8 @@ fn a_run_as_a_log_is_read_back() {
     assert!(counts.values().all(|count| *count == verdicts.len() && *count > 100), "{counts:?}");
     fs::write(folder.join("run.jsonl"), lines).expect("lines");
     let [log, lines] = ["run.mcap", "run.jsonl"].map(|file| {
-        let output = run(&folder, &["check", "--json", file]);
-        (
-            output.status.code(),
-            String::from_utf8(output.stdout).expect("UTF-8").replace(file, "FILE"),
-        )
+        let told = said(&folder, &["check", "--json", file]);
+        (told.code, told.out.replace(file, "FILE"))
     });
     assert_eq!(log, lines);
     // And the answers are those of the run.
@@ -146,16 +142,12 @@ fn a_run_is_drawn_by_its_id() {
     let folder = folder("id");
     let id = "failures/sofof/empty-tracks/0/0";
     let replay = ["evaluate", "replay", "--run", id, "--vehicles", "8"];
-    let told = String::from_utf8(run(&folder, &replay).stderr).expect("UTF-8");
     let file = "failures-sofof-empty-tracks-0-0.html";
-    assert!(told.contains(&format!("writes into {file}; --out names another file")), "{told}");
-    let said = done(&folder, 0, &replay);
-    assert!(said.starts_with(&format!("{id}: ")), "{said}");
+    let note = format!("writes into {file}; --out names another file");
+    said(&folder, &replay).has(0, &format!("{id}: "), &note);
     assert!(text(&folder, file).contains(id));
     for wrong in ["failures/sofof/empty-tracks/0/99", "nothing", "failures/sofof"] {
-        let output = run(&folder, &["evaluate", "replay", "--run", wrong]);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && said.contains("no run of"), "{said}");
+        said(&folder, &["evaluate", "replay", "--run", wrong]).has(2, "", "no run of");
     }
 }
 

@@ -2,10 +2,8 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Output;
 
-use crate::kit::folder;
-use crate::kit::run;
+use crate::kit::{Said, folder, said};
 use serde_json::{Value, json};
 
 const REPORT: &str = "report.html";
@@ -13,16 +11,12 @@ const SIZE: [&str; 4] = ["--scenarios", "1", "--vehicles", "2"];
 
 fn part(folder: &Path, size: &[&str], shard: &str) -> String {
     let arguments = [&["evaluate", "failures", "--out", "parts", "--shard", shard], size].concat();
-    let done = run(folder, &arguments);
-    assert_eq!(done.status.code(), Some(0), "{done:?}");
+    said(folder, &arguments).has(0, "", "");
     format!("parts/failures.{}.part.json", shard.replace('/', "-of-"))
 }
 
 fn refused(folder: &Path, arguments: &[&str], why: &str) {
-    let done = run(folder, arguments);
-    let said = String::from_utf8_lossy(&done.stderr);
-    assert_eq!(done.status.code(), Some(2), "{said}");
-    assert!(said.contains(why), "{said}");
+    said(folder, arguments).has(2, "", why);
 }
 
 /// The files below a folder, in order.
@@ -77,21 +71,19 @@ fn every_index_of_the_job_in_the_documents_makes_a_part() {
     let parts: Vec<String> = parts.collect();
     let mut merge = vec!["merge", "--out", "merged"];
     merge.extend(parts.iter().map(String::as_str));
-    let merged = run(&folder, &merge);
-    let whole = run(&folder, &[&["evaluate", "failures", "--out", "whole"], &SIZE[..]].concat());
-    assert_eq!(merged.status.code(), whole.status.code(), "{merged:?}");
+    let merged = said(&folder, &merge);
+    let whole = said(&folder, &[&["evaluate", "failures", "--out", "whole"], &SIZE[..]].concat());
+    assert_eq!(merged.code, whole.code, "{}", merged.err);
     same(&folder, "merged", "whole");
     let written = names(&folder.join("whole"));
     let pages = written.iter().filter(|it| it.starts_with("replays")).count();
     assert!(written.contains(&PathBuf::from(REPORT)) && pages > 0, "{written:?}");
-    let table = |output: &Output| {
-        let text = String::from_utf8(output.stdout.clone()).expect("UTF-8");
+    let table = |told: &Said| {
         let is_file = |line: &&str| line.starts_with("whole/") || line.starts_with("merged/");
-        text.lines().filter(|line| !is_file(line)).map(str::to_owned).collect::<Vec<_>>()
+        told.out.lines().filter(|line| !is_file(line)).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(table(&whole), table(&merged));
-    let agree = "checked by the model; model and implementation agree";
-    assert!(table(&merged).iter().any(|line| line.contains(agree)), "{merged:?}");
+    merged.has(0, "checked by the model; model and implementation agree", "");
 }
 
 #[test]
@@ -112,11 +104,8 @@ fn what_is_no_whole_is_refused_and_what_disagreed_is_said() {
     assert!(whole["checks"]["checked"].as_u64().is_some_and(|it| it > 0), "{}", whole["checks"]);
     let differs = json!([{"id": "failures/x", "t_ns": 7, "why": "differs"}]);
     changed(&|part| part["checks"]["disagreements"] = differs.clone());
-    let merged = run(&folder, &["merge", &one, &two]);
-    assert_eq!(merged.status.code(), Some(3), "{merged:?}");
-    let said = String::from_utf8_lossy(&merged.stderr).into_owned();
-    assert!(said.contains("failures/x at 7 ns: differs"), "{said}");
-    let version = String::from_utf8(run(&folder, &["--version"]).stdout).expect("UTF-8");
+    said(&folder, &["merge", &one, &two]).has(3, "", "failures/x at 7 ns: differs");
+    let version = said(&folder, &["--version"]).out;
     let version = version.trim().strip_prefix("mufasa ").expect("a name");
     assert_eq!(whole["version"], version);
     changed(&|part| part["version"] = json!("0.1.0 (commit 0123456789)"));
@@ -148,8 +137,7 @@ fn a_search_in_parts_is_byte_for_byte_the_search() {
     let size =
         ["--profile", "sofof", "--attack", "empty-tracks", "--vehicles", "8", "--rounds", "2"];
     let search = |more: &[&str]| {
-        let done = run(&folder, &[&["evaluate", "falsify"], &size[..], more].concat());
-        assert_eq!(done.status.code(), Some(0), "{done:?}");
+        said(&folder, &[&["evaluate", "falsify"], &size[..], more].concat()).has(0, "", "");
     };
     search(&["--out", "whole"]);
     for shard in ["2/2", "1/2"] {
@@ -157,8 +145,7 @@ fn a_search_in_parts_is_byte_for_byte_the_search() {
     }
     let parts = ["parts/falsify.2-of-2.part.json", "parts/falsify.1-of-2.part.json"];
     refused(&folder, &["merge", parts[0]], "part 1 of 2 is missing");
-    let merged = run(&folder, &["merge", "--out", "merged", parts[0], parts[1]]);
-    assert_eq!(merged.status.code(), Some(0), "{merged:?}");
+    said(&folder, &["merge", "--out", "merged", parts[0], parts[1]]).has(0, "", "");
     let written = names(&folder.join("whole"));
     let found = written.iter().filter(|it| it.starts_with("found")).count();
     let files = ["falsify.csv", "falsify.json", REPORT];

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::kit::{self, Said, folder};
+use crate::kit::{self, folder};
 use crate::maps::maps;
 use serde_json::Value;
 
@@ -11,9 +11,9 @@ const SIZE: [&str; 5] = ["failures", "--scenarios", "1", "--vehicles", "4"];
 
 /// What a command says that ends with this code.
 fn said(folder: &Path, arguments: &[&str], code: i32) -> String {
-    let Said { code: ended, out, err } = kit::said(folder, arguments);
-    assert_eq!(ended, Some(code), "{arguments:?}: {out}{err}");
-    out + &err
+    let told = kit::said(folder, arguments);
+    told.has(code, "", "");
+    told.out + &told.err
 }
 
 fn on_map() -> Option<String> {
