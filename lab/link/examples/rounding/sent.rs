@@ -1,8 +1,9 @@
 //! Cycles as they are when remote data were sent.
 
-use mufasa::input::cycle as twin;
+use mufasa::input::cycle::{Track, TrackList, Trajectory};
 use mufasa_link::message::{EncodeError, Frame, Message, Payload, decode, encode};
-use mufasa_model::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
+use mufasa_model::input::cycle::{self as model, Cycle};
+use mufasa_props::bridge::{from_impl, to_impl};
 
 /// What of a cycle is sent, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,25 +34,43 @@ impl Way {
         }
     }
 
-    /// The cycle with what arrives in place of what was made; the message is made when the CAV decides.
+    /// The cycle with what arrives in place of what was made; the message is made when the CAV decides. Ids of
+    /// tracks become places in their list, which fit: no verdict depends on them.
     pub fn arrives(self, cycle: &Cycle, frame: &Frame) -> Result<Cycle, EncodeError> {
         let mut cycle = cycle.clone();
         if self == Self::LateStamps {
             shift(&mut cycle, 999_999);
         }
+        if self == Self::CoarseTrajectory {
+            cycle.trajectory.iter_mut().for_each(|made| in_units_of_a_cpm(made, frame));
+        }
+        let (owned, now_ns) = (to_impl(&cycle), cycle.now_ns);
+        let history = owned.history();
+        let mut sent = owned.borrow(&history);
+        let (items, arrived);
         if self != Self::Trajectory
-            && let Some(list) = cycle.tracks.take()
+            && let Some(list) = sent.tracks
         {
-            cycle.tracks = Some(tracks(&list, cycle.now_ns, frame)?);
+            let tracks = (0..).zip(list.items).map(|(id, track)| Track { id, ..*track }).collect();
+            let tracks = Payload::Tracks { session: 1, stamp_ns: list.stamp_ns, tracks };
+            let Payload::Tracks { stamp_ns, tracks, .. } = through(tracks, now_ns, frame)? else {
+                unreachable!("tracks arrive as tracks")
+            };
+            let named = tracks.into_iter().zip(list.items);
+            items = named.map(|(track, made)| Track { id: made.id, ..track }).collect::<Vec<_>>();
+            sent.tracks = Some(TrackList { stamp_ns, items: &items });
         }
         if self != Self::Tracks
-            && let Some(made) = cycle.trajectory.take()
+            && let Some(Trajectory { stamp_ns, points }) = sent.trajectory
         {
-            let coarse = self == Self::CoarseTrajectory;
-            let made = if coarse { in_units_of_a_cpm(made, frame) } else { made };
-            cycle.trajectory = Some(trajectory(&made, cycle.now_ns, frame)?);
+            let made = Payload::Trajectory { session: 1, stamp_ns, points: points.to_vec() };
+            let Payload::Trajectory { stamp_ns, points, .. } = through(made, now_ns, frame)? else {
+                unreachable!("a trajectory arrives as one")
+            };
+            arrived = points;
+            sent.trajectory = Some(Trajectory { stamp_ns, points: &arrived });
         }
-        Ok(cycle)
+        Ok(from_impl(&sent))
     }
 }
 
@@ -75,39 +94,7 @@ fn through(payload: Payload, generated_ns: i64, frame: &Frame) -> Result<Payload
     Ok(decode(&bytes, frame).expect("what was written can be read").payload)
 }
 
-/// The list as it arrives. Its ids become places in the list, which fit: no verdict depends on them.
-fn tracks(list: &TrackList, now_ns: i64, frame: &Frame) -> Result<TrackList, EncodeError> {
-    let track = |(id, track): (i64, &Track)| {
-        let &Track { id: _, x, y, cos, sin, vx, vy, length, width } = track;
-        twin::Track { id, x, y, cos, sin, vx, vy, length, width }
-    };
-    let tracks = (0..).zip(&list.items).map(track).collect();
-    let sent = Payload::Tracks { session: 1, stamp_ns: list.stamp_ns, tracks };
-    let Payload::Tracks { stamp_ns, tracks, .. } = through(sent, now_ns, frame)? else {
-        unreachable!("tracks arrive as tracks")
-    };
-    let back = |(track, old): (twin::Track, &Track)| {
-        let twin::Track { id: _, x, y, cos, sin, vx, vy, length, width } = track;
-        Track { id: old.id, x, y, cos, sin, vx, vy, length, width }
-    };
-    Ok(TrackList { stamp_ns, items: tracks.into_iter().zip(&list.items).map(back).collect() })
-}
-
-fn trajectory(made: &Trajectory, now_ns: i64, frame: &Frame) -> Result<Trajectory, EncodeError> {
-    let point = |&TrajectoryPoint { t_ns, x, y, cos, sin }: &TrajectoryPoint| {
-        twin::TrajectoryPoint { t_ns, x, y, cos, sin }
-    };
-    let points = made.points.iter().map(point).collect();
-    let sent = Payload::Trajectory { session: 1, stamp_ns: made.stamp_ns, points };
-    let Payload::Trajectory { stamp_ns, points, .. } = through(sent, now_ns, frame)? else {
-        unreachable!("a trajectory arrives as one")
-    };
-    let back =
-        |twin::TrajectoryPoint { t_ns, x, y, cos, sin }| TrajectoryPoint { t_ns, x, y, cos, sin };
-    Ok(Trajectory { stamp_ns, points: points.into_iter().map(back).collect() })
-}
-
-fn in_units_of_a_cpm(mut made: Trajectory, frame: &Frame) -> Trajectory {
+fn in_units_of_a_cpm(made: &mut model::Trajectory, frame: &Frame) {
     let centimetres = |value: f64, origin: f64| origin + ((value - origin) * 100.0).round() / 100.0;
     for point in &mut made.points {
         let [x, y] = frame.point();
@@ -116,5 +103,4 @@ fn in_units_of_a_cpm(mut made: Trajectory, frame: &Frame) -> Trajectory {
         (point.sin, point.cos) = ((degrees * 10.0).round() / 10.0).to_radians().sin_cos();
         point.t_ns = (point.t_ns + 500_000).div_euclid(1_000_000) * 1_000_000;
     }
-    made
 }

@@ -187,32 +187,22 @@ fn what_is_no_number_is_not_sent() {
         (STATE, "ego.center_offset", |it, value| ego_of(it).center_offset = value),
         (DETECTIONS, "detections[0].x", |it, value| detections_of(it)[0].x = value),
     ];
-    for (kind, place, change) in numbers {
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let mut message = messages().swap_remove(kind);
-            change(&mut message, value);
-            let error = encode(&message, &frame()).expect_err(place);
-            assert_eq!(
-                (error.place.to_string().as_str(), error.problem),
-                (place, Problem::NotFinite)
-            );
-        }
-    }
     let directions: [(usize, &str, Change); 4] = [
         (TRACKS, "tracks[0].(cos, sin)", |it, value| tracks_of(it)[0].cos = value),
         (TRAJECTORY, "points[3].(cos, sin)", |it, value| points_of(it)[3].sin = value),
         (STATE, "ego.(cos, sin)", |it, value| ego_of(it).cos = value),
         (DETECTIONS, "detections[2].(cos, sin)", |it, value| detections_of(it)[2].sin = value),
     ];
-    for (kind, place, change) in directions {
-        for value in [f64::NAN, f64::INFINITY, 0.999, 2.0] {
-            let mut message = messages().swap_remove(kind);
-            change(&mut message, value);
-            let error = encode(&message, &frame()).expect_err(place);
-            assert_eq!(
-                (error.place.to_string().as_str(), error.problem),
-                (place, Problem::NoDirection)
-            );
+    let infinite = (Problem::NotFinite, [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].as_slice());
+    let turned = (Problem::NoDirection, [f64::NAN, f64::INFINITY, 0.999, 2.0].as_slice());
+    for (fields, (problem, values)) in [(&numbers[..], infinite), (&directions, turned)] {
+        for &(kind, place, change) in fields {
+            for &value in values {
+                let mut message = messages().swap_remove(kind);
+                change(&mut message, value);
+                let error = encode(&message, &frame()).expect_err(place);
+                assert_eq!((error.place.to_string().as_str(), error.problem), (place, problem));
+            }
         }
     }
 }

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use mufasa::services::configuration::Configuration;
-use mufasa_link::message::{Payload, decode};
-use mufasa_link::transport::{Address, Transport};
+use mufasa_link::message::Payload;
+use mufasa_link::transport::Address;
 use mufasa_model::offloading::requester::Parameters;
 
 use super::world::{MS, Seen, Somebody, World};
@@ -114,15 +114,12 @@ fn a_station_that_is_killed_is_left_and_used_again_when_it_is_back() {
 
 #[test]
 fn a_vehicle_that_is_killed_is_served_again_at_once_in_sessions_of_higher_numbers() {
-    let asked = Rc::new(RefCell::new((None, Vec::new())));
+    let asked = Rc::new(RefCell::new(Vec::new()));
     let heard = Rc::clone(&asked);
     let also = move |_: i64, by: &mut Somebody| {
-        let (ear, sessions) = &mut *heard.borrow_mut();
-        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Station(1)));
-        while let Some(bytes) = ear.receive(0) {
-            let message = decode(&bytes, &by.frame).expect("a message of the vehicle");
-            if let Payload::Request { session, .. } = message.payload {
-                sessions.push(session);
+        for payload in by.heard(Address::Station(1)) {
+            if let Payload::Request { session, .. } = payload {
+                heard.borrow_mut().push(session);
             }
         }
     };
@@ -131,7 +128,7 @@ fn a_vehicle_that_is_killed_is_served_again_at_once_in_sessions_of_higher_number
     holds(&seen);
     offloaded_around(&seen, [4_000, 4_050]);
     assert_eq!((seen.vehicle.drives, seen.station.sessions), (2, 2));
-    let sessions = &asked.borrow().1;
+    let sessions = asked.borrow();
     assert_eq!(sessions.len(), 4);
     assert!(sessions.is_sorted_by(|a, b| a < b), "{sessions:?}");
 }

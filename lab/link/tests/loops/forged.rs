@@ -7,17 +7,14 @@ use std::rc::Rc;
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_drives::{Options, demo};
-use mufasa_link::message::{Message, Payload, decode};
-use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
+use mufasa_link::message::{Message, Payload};
+use mufasa_link::transport::{Address, MESSAGE_MAX};
 use mufasa_model::offloading::requester::Parameters;
 
 use super::world::{MS, START_NS, Seen, Somebody, World};
 
 const VEHICLE: Address = Address::Vehicle(1);
-
-fn message(by: &Somebody, sender: i64, receiver: i64, payload: Payload) -> Message {
-    Message { sender, receiver, generated_ns: by.now_ns, payload }
-}
+const STATION: Address = Address::Station(1);
 
 fn while_somebody(also: impl FnMut(i64, &mut Somebody) + 'static) -> Seen {
     let seen = World { also: Box::new(also), ..World::default() }.drive();
@@ -38,8 +35,7 @@ fn sessions_that_nobody_asked_for_change_nothing() {
                     Payload::Reject { group: Group::Mot, session },
                     tracks,
                 ] {
-                    let forged = message(by, 1, 1, payload);
-                    by.say(VEHICLE, &forged);
+                    by.say(VEHICLE, [1, 1], payload);
                 }
             }
         }
@@ -75,10 +71,9 @@ fn somebody_sends_tracks_ahead(ahead_ns: i64) -> Seen {
     while_somebody(move |ms, by| {
         if ms == 4_005 {
             for session in (1..=4).map(|number| START_NS + number) {
-                let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
-                let ahead =
-                    Message { generated_ns: by.now_ns + ahead_ns, ..message(by, 1, 1, tracks) };
-                by.say(VEHICLE, &ahead);
+                let payload = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
+                let generated_ns = by.now_ns + ahead_ns;
+                by.send(VEHICLE, &Message { sender: 1, receiver: 1, generated_ns, payload });
             }
         }
     })
@@ -88,7 +83,7 @@ fn somebody_sends_tracks_ahead(ahead_ns: i64) -> Seen {
 fn bytes_that_are_no_message_are_counted_and_change_nothing() {
     let seen = while_somebody(|ms, by| {
         let byte = u8::try_from(ms % 256).unwrap_or(0);
-        for address in [VEHICLE, Address::Station(1)] {
+        for address in [VEHICLE, STATION] {
             by.shout(address, &[byte; 40][..usize::from(byte % 40)]);
             by.shout(address, &vec![byte; MESSAGE_MAX]);
         }
@@ -110,23 +105,17 @@ fn bytes_that_are_no_message_are_counted_and_change_nothing() {
 
 #[test]
 fn a_trajectory_in_the_running_session_that_leaves_the_road_is_caught_and_starts_the_hold() {
-    let heard = Rc::new(RefCell::new((None, None)));
+    let mut last = None;
     let seen = while_somebody(move |ms, by| {
-        let (ear, last) = &mut *heard.borrow_mut();
-        let ear = ear.get_or_insert_with(|| by.hub.join(VEHICLE));
-        while let Some(bytes) = ear.receive(0) {
-            if let Ok(Message {
-                payload: Payload::Trajectory { session, stamp_ns, points }, ..
-            }) = decode(&bytes, &by.frame)
-            {
-                *last = Some((session, stamp_ns, points));
+        for payload in by.heard(VEHICLE) {
+            if let Payload::Trajectory { session, stamp_ns, points } = payload {
+                last = Some((session, stamp_ns, points));
             }
         }
         if let (4_090, Some((session, stamp_ns, points))) = (ms, last.clone()) {
             let aside = |it: TrajectoryPoint| TrajectoryPoint { y: it.y + 5.0, ..it };
             let points = points.into_iter().map(aside).collect();
-            let forged = message(by, 1, 1, Payload::Trajectory { session, stamp_ns, points });
-            by.say(VEHICLE, &forged);
+            by.say(VEHICLE, [1, 1], Payload::Trajectory { session, stamp_ns, points });
         }
     });
     // Nothing tells that the station did not send it, but the stages do.
@@ -150,8 +139,7 @@ fn a_withdrawal_that_is_forged_lasts_until_the_next_offer_or_for_nine_periods_le
     let ended = |at: i64| {
         let seen = while_somebody(move |ms, by| {
             if ms == at {
-                let forged = message(by, 1, 1, Payload::Withdraw);
-                by.say(VEHICLE, &forged);
+                by.say(VEHICLE, [1, 1], Payload::Withdraw);
             }
         });
         assert_eq!(seen.vehicle.left["withdrawn"], 2);
@@ -170,8 +158,7 @@ fn a_withdrawal_that_is_forged_lasts_until_the_next_offer_or_for_nine_periods_le
 fn stations_that_are_made_up_fill_the_table_and_the_real_one_is_still_used() {
     let seen = while_somebody(|ms, by| {
         if ms >= 1_000 && ms % 10 == 0 {
-            let forged = message(by, 2 + ms, 0, Payload::Offer { groups: Groups::ALL });
-            by.say(VEHICLE, &forged);
+            by.say(VEHICLE, [2 + ms, 0], Payload::Offer { groups: Groups::ALL });
         }
     });
     assert!(
@@ -188,8 +175,7 @@ fn who_takes_the_id_of_the_vehicle_ends_its_sessions_and_no_more() {
         if (4_000..6_000).contains(&ms) && ms % 100 == 0 {
             for group in Group::ALL {
                 let session = i64::MAX - 1;
-                let forged = message(by, 1, 1, Payload::Request { group, session });
-                by.say(Address::Station(1), &forged);
+                by.say(STATION, [1, 1], Payload::Request { group, session });
             }
         }
     });
@@ -204,15 +190,11 @@ fn a_second_vehicle_is_served_beside_the_first() {
     let seen = while_somebody(|ms, by| {
         if ms >= 2_000 && ms % 100 == 0 {
             for group in Group::ALL {
-                let request = message(by, 2, 1, Payload::Request { group, session: 5 });
-                by.say(Address::Station(1), &request);
+                by.say(STATION, [2, 1], Payload::Request { group, session: 5 });
             }
-            let state = Payload::State { stamp_ns: by.now_ns, ego: at(1e4) };
-            let state = message(by, 2, 1, state);
-            by.say(Address::Station(1), &state);
+            by.say(STATION, [2, 1], Payload::State { stamp_ns: by.now_ns, ego: at(1e4) });
             // What is meant for it is not for the first.
-            let for_it = message(by, 1, 2, Payload::Withdraw);
-            by.say(VEHICLE, &for_it);
+            by.say(VEHICLE, [1, 2], Payload::Withdraw);
         }
     });
     assert_eq!(seen.station.sessions, 4);
@@ -232,29 +214,22 @@ fn a_second_vehicle_is_served_beside_the_first() {
 
 #[test]
 fn results_are_sent_in_running_sessions_alone() {
-    let answers = Rc::new(RefCell::new((None, BTreeMap::new())));
+    let answers = Rc::new(RefCell::new(BTreeMap::new()));
     let heard = Rc::clone(&answers);
     let place = demo(&Options::default()).unwrap().cycle(0).unwrap().cycle.ego;
     while_somebody(move |ms, by| {
-        let (ear, answers) = &mut *heard.borrow_mut();
-        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Vehicle(2)));
-        while let Some(bytes) = ear.receive(0) {
-            match decode(&bytes, &by.frame).expect("a message of the station").payload {
-                Payload::Tracks { session, .. } => {
-                    *answers.entry(("tracks", session)).or_insert(0) += 1;
-                }
-                Payload::Trajectory { session, .. } => {
-                    *answers.entry(("trajectory", session)).or_insert(0) += 1;
-                }
-                _ => {}
-            }
+        for payload in by.heard(Address::Vehicle(2)) {
+            let answer = match payload {
+                Payload::Tracks { session, .. } => ("tracks", session),
+                Payload::Trajectory { session, .. } => ("trajectory", session),
+                _ => continue,
+            };
+            *heard.borrow_mut().entry(answer).or_insert(0) += 1;
         }
         if ms % 100 == 0 {
             // MOT runs from 2 s on, PLAN never, whatever is asked in its name.
             if ms == 2_000 {
-                let request = Payload::Request { group: Group::Mot, session: 5 };
-                let request = message(by, 2, 1, request);
-                by.say(Address::Station(1), &request);
+                by.say(STATION, [2, 1], Payload::Request { group: Group::Mot, session: 5 });
             }
             let ego = Ego { x: place.x, y: place.y, cos: place.cos, sin: place.sin, ..at(0.0) };
             for payload in [
@@ -263,12 +238,11 @@ fn results_are_sent_in_running_sessions_alone() {
                 Payload::State { stamp_ns: by.now_ns, ego },
                 Payload::Detections { stamp_ns: by.now_ns, ego, detections: vec![] },
             ] {
-                let said = message(by, 2, 1, payload);
-                by.say(Address::Station(1), &said);
+                by.say(STATION, [2, 1], payload);
             }
         }
     });
-    let answers = &answers.borrow().1;
+    let answers = answers.borrow();
     assert_eq!(answers.keys().collect::<Vec<_>>(), [&("tracks", 5)], "{answers:?}");
     assert!((160..=170).contains(&answers[&("tracks", 5)]), "{answers:?}");
 }

@@ -1,10 +1,13 @@
 //! A world whose clock stands still unless it is moved on: a vehicle on the drive of the demo, stations,
 //! and whoever else talks.
 
+use std::collections::BTreeMap;
+use std::iter;
+
 use mufasa::monitor::Settings;
 use mufasa::services::configuration::Configuration;
 use mufasa_drives::{Injection, Options, Stream, inject};
-use mufasa_link::message::{Frame, Message, encode};
+use mufasa_link::message::{Frame, Message, Payload, decode, encode};
 use mufasa_link::play::Played;
 use mufasa_link::run::settings;
 use mufasa_link::station::{Station, StationSummary};
@@ -45,22 +48,35 @@ pub struct World {
     pub until: i64,
 }
 
-/// Somebody else who talks, with the frame of the messages.
+/// Somebody else who talks and listens.
 pub struct Somebody {
-    pub hub: Hub,
+    hub: Hub,
     channels: Channels,
-    pub frame: Frame,
+    ears: BTreeMap<Address, Channels>,
+    frame: Frame,
     pub now_ns: i64,
 }
 
 impl Somebody {
-    pub fn say(&mut self, to: Address, message: &Message) {
+    /// Says this as the sender, for the receiver.
+    pub fn say(&mut self, to: Address, [sender, receiver]: [i64; 2], payload: Payload) {
+        self.send(to, &Message { sender, receiver, generated_ns: self.now_ns, payload });
+    }
+
+    pub fn send(&mut self, to: Address, message: &Message) {
         let bytes = encode(message, &self.frame).expect("a message that can be written");
         self.channels.send(self.now_ns, to, bytes);
     }
 
     pub fn shout(&mut self, to: Address, bytes: &[u8]) {
         self.channels.send(self.now_ns, to, bytes.to_vec());
+    }
+
+    /// What others said to an address since this was last asked; from the first time on.
+    pub fn heard(&mut self, to: Address) -> Vec<Payload> {
+        let ear = self.ears.entry(to).or_insert_with(|| self.hub.join(to));
+        let read = |bytes: Vec<u8>| decode(&bytes, &self.frame).expect("a message").payload;
+        iter::from_fn(|| ear.receive(0)).map(read).collect()
     }
 }
 
@@ -123,6 +139,7 @@ impl World {
         let mut somebody = Somebody {
             hub: hub.clone(),
             channels: hub.join(Address::Vehicle(99)),
+            ears: BTreeMap::new(),
             frame: played.frame().expect("a frame"),
             now_ns: START_NS,
         };
