@@ -52,8 +52,8 @@ class Requester:
                 self.leave(g, release)
 
     def tick(self, now_ns, give_back=()):
-        """A monitor gives groups back at a tick; a trace does not."""
-        returned = set(give_back)
+        """A monitor gives groups back before a tick; a trace does not."""
+        returned = set()
         for g in give_back:
             self.leave(g)
         for g in GROUPS:

@@ -11,9 +11,11 @@ import seeded_bugs
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LONGEST = 3600  # s, of one campaign
-# Of each program: language and profile, kinds of records, and what it needs to run.
+# Of each program, which begins with its language, and profile: the kinds of records.
 PROGRAMS = {("Python", "paper"): "cycle,offloading,composition,line",
             ("Python", "hardened"): "cycle,offloading,line",
+            ("Python monitor", "paper"): "monitor",
+            ("Python monitor", "hardened"): "monitor",
             ("C++", "paper"): "cycle,line",
             ("JavaScript", "paper"): "cycle"}
 
@@ -48,7 +50,7 @@ def measured():
 def runs(language):
     """What runs or builds programs in a language; None when it is not here."""
     names = {"Python": ("python3",), "C++": ("c++", "g++", "clang++"), "JavaScript": ("node",)}
-    return next(filter(shutil.which, names[language]), None)
+    return next(filter(shutil.which, names[language.split()[0]]), None)
 
 
 def build(language, folder, bug=None):
@@ -60,7 +62,7 @@ def build(language, folder, bug=None):
             shutil.copy(source, folder)
     else:
         seeded_bugs.seed(bug, sources, folder)
-    if language == "Python":
+    if language.startswith("Python"):
         return [runs(language), folder / "mufasa_py.py"]
     if language == "JavaScript":
         return [runs(language), folder / "mufasa_js.mjs"]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Bug:
     name: str
-    program: str  # Python, C++ or JavaScript
+    program: str  # of programs.PROGRAMS
     profile: str
     kind: str  # of the records in which it shows
     about: str
@@ -21,6 +21,10 @@ def python(name, file, old, new, about, kind="cycle"):
 
 def hardened(name, file, old, new, about, kind="cycle"):
     return Bug(name, "Python", "hardened", kind, about, ((file, old, new),))
+
+
+def monitor(name, old, new, about, profile="hardened"):
+    return Bug(name, "Python monitor", profile, "monitor", about, (("monitor.py", old, new),))
 
 
 def cpp(name, about, *changes, file="mufasa_cpp.cpp"):
@@ -140,6 +144,58 @@ BUGS = [
              "H-14: whoever meets the CAV after T can stop"),
     hardened("inner-at-speed", "fail_safe.py", 'min(0.3, self.ego["speed"]**2 / (2 * self.a_b))', "0.0",
              "H-14: who touches a side of the CAV comes across it at any speed"),
+    monitor("tracks-without-look", """ and (
+                self.is_current(cycle["detections"], now_ns)):""", ":",
+            "MON-02: tracks come out of a cycle in which stage i did not run", "paper"),
+    monitor("older-used", '        used_ns = slot["used_ns"]\n',
+            '        used_ns, slot["element"] = slot["used_ns"], content\n',
+            "MON-07, MON-08: an element that was repeated, or is older than the last, is used"),
+    monitor("errors-unheard", '"verdict": "safe" if is_safe else "unsafe"})\n',
+            '"verdict": "unsafe" if stage else "safe"})\n',
+            "MON-10: the requester does not hear of a cycle with an error"),
+    monitor("looked-at-is-used", 'if out.get(key) and out[key]["station"]}', "if is_safe and remote[g]}",
+            "MON-11: the verdict names every running session"),
+    monitor("stale-by-0", 'now_ns - content["stamp_ns"] > self.max_age_ns',
+            'now_ns - content["stamp_ns"] >= self.max_age_ns',
+            "MON-30: an element that is exactly max_age old at its arrival is dropped"),
+    monitor("starves-at-once", '> self.parameters["dt_max_ns"]:\n            slot["starved"]',
+            '>= self.parameters["dt_max_ns"]:\n            slot["starved"]',
+            "MON-31: a group starves after exactly dt_max"),
+    monitor("starved-arrives", '                return "starved", self.requester.drop(g)',
+            '                slot["arrival_ns"] = now_ns\n                return "starved", self.requester.drop(g)',
+            "MON-32: the elements of a starved group count as arrivals"),
+    monitor("eightfold", "left = 9 *", "left = 8 *", "MON-34: eight times the time without use"),
+    monitor("no-period", 'max(self.now_ns - slot["since_ns"], self.period_ns)',
+            'self.now_ns - slot["since_ns"]', "MON-35: the time without use may be below a period"),
+    monitor("used-to-the-end", 'slot["since_ns"] - slot["first_ns"]', 'self.now_ns - slot["first_ns"]',
+            "MON-36: the time of use goes on to the return"),
+    monitor("use-gained", 'min(slot["first_ns"], now_ns)', 'slot["first_ns"]',
+            "MON-37: the first use is not lowered by a clock set back"),
+    monitor("hold-shortened", "self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)",
+            "self.hold_until_ns = until_ns", "MON-38: a hold ends with the last wait, not the latest"),
+    monitor("tau-rounded-up", 'math.floor(self.parameters["tau"] * 1e9)',
+            'math.ceil(self.parameters["tau"] * 1e9)', "MON-40: brake_by is rounded up"),
+    monitor("brake-by-in-paper", "if self.hardened and trajectory:", "if trajectory:",
+            "MON-41: the paper profile names a time to brake by", "paper"),
+    monitor("hold-of-nothing", "self.requester.hold_to(now_ns + 1)", "self.requester.hold_to(now_ns)",
+            "MON-44: the hold ends at the tick, not 1 ns after it"),
+    monitor("tick-in-time", '0 <= now_ns - self.tick_ns <= self.times["dt_max_ns"]',
+            '0 <= now_ns - self.tick_ns < self.times["dt_max_ns"]',
+            "MON-45: a tick exactly dt_max before the cycle is not in time"),
+    monitor("tick-kept", "        self.tick_ns = None\n        if", "        if",
+            "MON-45: a tick from before the last cycle is in time"),
+    monitor("invalid-not-braked", "if error is not None or stage == \"input\":", "if stage == \"input\":",
+            "MON-50: own data that are invalid do not make control brake"),
+    monitor("missing-not-braked", 'self.said = {"missing": "trajectory"}', "self.said = None",
+            "MON-51: the CAV without a plan of its own does not brake"),
+    monitor("stall-late", 'self.remote_ns >= self.stall["time_ns"]', 'self.remote_ns > self.stall["time_ns"]',
+            "MON-54: PLAN is given back after the time, not at it"),
+    monitor("given-back-unheld", "            self.requester.hold_to(now_ns + self.times[\"t_wait_ns\"])\n", "",
+            "MON-58: PLAN is asked for again at once"),
+    monitor("age-of-l-max", 'parameters["max_age_ns"] < times["l_max_ns"]',
+            'parameters["max_age_ns"] <= times["l_max_ns"]', "MON-26: max_age that is l_max is refused"),
+    monitor("numbered-from-0", "self.sessions, self.now_ns = period_ns, last_session, 0",
+            "self.sessions, self.now_ns = period_ns, 0, 0", "MON-28: sessions are numbered from 0"),
     cpp("off-by-one-lane", "stage ii: the last segment of route and corridor is left out",
         ("  return std::all_of(c.trajectory->", "  pairs.pop_back();\n  return std::all_of(c.trajectory->")),
     cpp("route-kept", "stage ii: a route is kept under its number of cross sections and first x",

@@ -295,10 +295,10 @@ impl<'a> Runner<'a> {
             Expected::Cycle(answer) => {
                 answer.as_ref().as_ref().map_or("error", |report| stage_name(report.failed_stage))
             }
-            Expected::Composition(Err(_)) | Expected::Line(_) => "error",
+            Expected::States(Err(_)) | Expected::Composition(Err(_)) | Expected::Line(_) => "error",
             Expected::Composition(Ok(answer)) if answer.none.is_some() => "none",
             Expected::Composition(Ok(_)) => "some",
-            Expected::Offloading(_) => "",
+            Expected::States(Ok(_)) => "",
         };
         let (profile, configuration) = question.setting();
         let group =

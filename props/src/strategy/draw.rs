@@ -13,6 +13,9 @@ const TAPE: usize = 160;
 /// Length of the tapes for sequences of events.
 const LONG_TAPE: usize = 1_280;
 
+/// Length of the tapes for sequences of a monitor, of which each step reads up to 15 choices.
+const LONGEST_TAPE: usize = 2_400;
+
 /// Reads choices from a tape.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
@@ -23,6 +26,11 @@ pub struct Draw<'a> {
 /// Tapes for sequences of events.
 pub fn long_tape() -> impl Strategy<Value = Vec<u32>> {
     vec(any::<u32>(), LONG_TAPE)
+}
+
+/// Tapes for sequences of a monitor.
+pub fn longest_tape() -> impl Strategy<Value = Vec<u32>> {
+    vec(any::<u32>(), LONGEST_TAPE)
 }
 
 /// Tapes for cycles.

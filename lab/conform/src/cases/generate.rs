@@ -2,15 +2,18 @@
 //! is the same whatever the shard.
 
 use mufasa_model::input::cycle::{Cycle, Profile};
-use mufasa_props::strategy::draw::{Draw, long_tape, tape};
-use mufasa_props::strategy::{composition, input, requester, roads, schedule, tracks, whole};
+use mufasa_props::strategy::draw::{Draw, long_tape, longest_tape, tape};
+use mufasa_props::strategy::{
+    composition, input, monitor, requester, roads, schedule, tracks, whole,
+};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use crate::cases::damage::Damage;
 use crate::cases::question::{Damaged, Question};
 use crate::judge::class::Kind;
-use mufasa_records::Trace;
+use mufasa_records::record::parameters::All;
+use mufasa_records::{Sequence, Trace};
 
 /// So many cases in succession are on roads that are alike, and one in so many of these groups is.
 const NEIGHBOURS: u64 = 4;
@@ -33,11 +36,11 @@ impl Generator {
         self.read(self.kind(case), &self.tape(case))
     }
 
-    /// The kind of a case: with all four, eight of eleven are cycles.
+    /// The kind of a case: of the usual four, eight of eleven are cycles.
     pub fn kind(&self, case: u64) -> Kind {
         let weight = |kind: &Kind| match kind {
             Kind::Cycle => 8,
-            Kind::Offloading | Kind::Composition | Kind::Line => 1,
+            Kind::Offloading | Kind::Composition | Kind::Monitor | Kind::Line => 1,
         };
         let total: u64 = self.kinds.iter().map(weight).sum();
         let mut drawn = mix(self.seed ^ mix(case)) % total.max(1);
@@ -63,6 +66,7 @@ impl Generator {
                 tape().new_tree(&mut runner).map(|t| t.current())
             }
             Kind::Offloading => long_tape().new_tree(&mut runner).map(|t| t.current()),
+            Kind::Monitor => longest_tape().new_tree(&mut runner).map(|t| t.current()),
         };
         // Vectors of any numbers reject nothing; an empty tape is the simplest case.
         let mut tape = drawn.unwrap_or_default();
@@ -97,6 +101,7 @@ impl Generator {
                 Question::Offloading(Trace { profile, parameters, events })
             }
             Kind::Composition => Question::Composition(composition::task(&mut Draw::new(tape))),
+            Kind::Monitor => Question::Monitor(Box::new(sequence(tape, self.profile))),
             Kind::Line => {
                 let mut draw = Draw::new(tape);
                 let damage = draw.pick(&Damage::ALL);
@@ -128,6 +133,22 @@ fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     }
 }
 
+/// What one monitor lives through.
+fn sequence(tape: &[u32], profile: Profile) -> Sequence {
+    let (settings, events) = monitor::sequence(tape, profile);
+    Sequence {
+        profile,
+        parameters: All::of(&settings.parameters, &settings.requester),
+        period_ns: settings.period_ns,
+        last_session: settings.last_session,
+        supervise_local: settings.supervise_local,
+        stall: settings.stall,
+        memory: settings.memory,
+        route: monitor::route(),
+        events,
+    }
+}
+
 /// Splitmix64: neighbours become unlike.
 pub fn mix(value: u64) -> u64 {
     let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -156,7 +177,7 @@ mod tests {
 
     #[test]
     fn in_succession_come_cycles_on_roads_that_are_alike_but_not_equal() {
-        let generator = Generator { seed: 0, profile: Profile::PAPER, kinds: Kind::ALL.into() };
+        let generator = Generator { seed: 0, profile: Profile::PAPER, kinds: Kind::USUAL.into() };
         let cycle = |case| match generator.question(case) {
             Question::Cycle(cycle) => Some(cycle),
             _ => None,

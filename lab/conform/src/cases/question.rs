@@ -1,13 +1,14 @@
-//! What is asked: a record of one of the three kinds, and its line.
+//! What is asked: a record of one of the four kinds, and its line.
 
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::orchestrator::Task;
 
 use crate::cases::damage::Damage;
 use crate::judge::class::Kind;
-use mufasa_records::record::{Recorded, composition, cycle, offloading};
+use mufasa_records::record::{Recorded, composition, cycle, monitor, offloading};
 use mufasa_records::{
-    LineError, Record, Trace, cycle_to_line, decide, names, parse, task_to_line, trace_to_line,
+    LineError, Record, Sequence, Trace, cycle_to_line, decide, names, parse, sequence_to_line,
+    task_to_line, trace_to_line,
 };
 use serde_json::Value;
 
@@ -23,6 +24,8 @@ pub enum Question {
     Offloading(Trace),
     /// A composition.
     Composition(Task),
+    /// What one monitor lives through.
+    Monitor(Box<Sequence>),
     /// A line that is none of them.
     Line(Damaged),
     /// A line of a vector that is none of them, or not one that a record would be written as.
@@ -36,6 +39,7 @@ impl Question {
             Self::Cycle(_) => Kind::Cycle,
             Self::Offloading(_) => Kind::Offloading,
             Self::Composition(_) => Kind::Composition,
+            Self::Monitor(_) => Kind::Monitor,
             Self::Line(_) | Self::Text(_) => Kind::Line,
         }
     }
@@ -47,6 +51,7 @@ impl Question {
                 (names::profile(cycle.profile), names::configuration(cycle.configuration))
             }
             Self::Offloading(trace) => (names::profile(trace.profile), ""),
+            Self::Monitor(sequence) => (names::profile(sequence.profile), ""),
             Self::Composition(_) | Self::Line(_) | Self::Text(_) => ("", ""),
         }
     }
@@ -59,17 +64,18 @@ impl Question {
             Self::Composition(it) => {
                 serde_json::to_value(composition::Composition::of_model(it)).ok()
             }
+            Self::Monitor(it) => serde_json::to_value(monitor::Monitor::of_model(it)).ok(),
             Self::Line(_) | Self::Text(_) => None,
         }
     }
 
-    /// What a record asks; `None` when it is none, or a sequence of the monitor, which no campaign asks yet.
+    /// What a record asks; `None` when it is none.
     pub fn of_line(line: &str) -> Option<Self> {
         Some(match parse(line.as_bytes(), 1).ok()? {
             Record::Cycle { cycle, .. } => Self::Cycle(cycle),
             Record::Offloading { trace, .. } => Self::Offloading(trace),
             Record::Composition { task, .. } => Self::Composition(task),
-            Record::Monitor { .. } => return None,
+            Record::Monitor { sequence, .. } => Self::Monitor(sequence),
         })
     }
 
@@ -79,6 +85,7 @@ impl Question {
             Self::Cycle(cycle) => cycle_to_line(id, cycle),
             Self::Offloading(trace) => trace_to_line(id, trace),
             Self::Composition(task) => task_to_line(id, task),
+            Self::Monitor(sequence) => sequence_to_line(id, sequence),
             Self::Line(damaged) => damaged.line(id),
             Self::Text(text) => text.line.clone(),
         }
@@ -101,6 +108,7 @@ impl Question {
             }
             Self::Offloading(trace) => trace.events.len(),
             Self::Composition(task) => task.services.len(),
+            Self::Monitor(sequence) => sequence.events.len(),
             Self::Line(damaged) => damaged.record.objects(),
             Self::Text(_) => 1,
         }
@@ -110,7 +118,7 @@ impl Question {
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Cycle(_) => "object",
-            Self::Offloading(_) => "event",
+            Self::Offloading(_) | Self::Monitor(_) => "event",
             Self::Composition(_) => "service",
             Self::Line(damaged) => damaged.record.unit(),
             Self::Text(_) => "line",
@@ -121,7 +129,7 @@ impl Question {
     pub fn id<'a>(&'a self, id: &'a str) -> &'a str {
         match self {
             Self::Text(text) => text.id.as_deref().unwrap_or(id),
-            Self::Cycle(_) | Self::Offloading(_) | Self::Composition(_) | Self::Line(_) => id,
+            _ => id,
         }
     }
 
@@ -130,7 +138,7 @@ impl Question {
         match self {
             Self::Line(damaged) => damaged.damage.name(),
             Self::Text(text) => &text.vector,
-            Self::Cycle(_) | Self::Offloading(_) | Self::Composition(_) => "",
+            _ => "",
         }
     }
 }
@@ -208,7 +216,7 @@ mod tests {
 
     #[test]
     fn the_line_of_a_question_reads_back_to_it() {
-        let (mut seen, mut refused) = ([0; 3], 0);
+        let (mut seen, mut refused) = ([0; 4], 0);
         for case in 0..600 {
             let generator =
                 Generator { seed: 3, profile: Profile::PAPER, kinds: Kind::RECORDS.into() };

@@ -62,9 +62,6 @@ impl Vector<'_> {
     /// What it asks of a program of this profile. What binds both profiles is asked in this one.
     fn question(&self, profile: Profile) -> serde_json::Result<Option<Question>> {
         let text = self.input.get();
-        if text.starts_with("{\"kind\":\"monitor\"") || text.starts_with("{\"kind\": \"monitor\"") {
-            return Ok(None); // No campaign asks sequences of the monitor yet.
-        }
         let mut question = if text.starts_with('"') {
             // As it stands: another text would be another question.
             let line: String = serde_json::from_str(text)?;
@@ -75,6 +72,7 @@ impl Vector<'_> {
         let its_profile = match &mut question {
             Question::Cycle(cycle) => &mut cycle.profile,
             Question::Offloading(trace) => &mut trace.profile,
+            Question::Monitor(sequence) => &mut sequence.profile,
             Question::Composition(_) | Question::Line(_) | Question::Text(_) => {
                 return Ok(Some(question));
             }

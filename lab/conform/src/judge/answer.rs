@@ -87,6 +87,13 @@ pub fn is_error(object: &Map<String, Value>) -> bool {
     object.get("verdict").and_then(Value::as_str) == Some("error")
 }
 
+/// Whether a place is named in an answer, but not this one.
+pub fn names_another(given: Option<&Value>, field: &str, index: Option<usize>) -> bool {
+    let named = given.and_then(|given| given.get("field"));
+    let at = given.and_then(|given| given.get("index")).unwrap_or(&Value::Null);
+    named.is_some_and(|named| *named != field || *at != Value::from(index))
+}
+
 /// An answer in short: what it says, then how it begins.
 pub fn in_short(line: &[u8]) -> String {
     let object = serde_json::from_slice::<Map<String, Value>>(line).unwrap_or_default();

@@ -20,16 +20,23 @@ pub enum Kind {
     Offloading,
     /// A service set to compose.
     Composition,
+    /// What one monitor lives through.
+    Monitor,
     /// A line that breaks the schema or is no JSON.
     Line,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Cycle, Self::Offloading, Self::Composition, Self::Line];
+    pub const ALL: [Self; 5] =
+        [Self::Cycle, Self::Offloading, Self::Composition, Self::Monitor, Self::Line];
+
+    /// Those that are asked unless others are named: whoever asks for a monitor says so.
+    pub const USUAL: [Self; 4] = [Self::Cycle, Self::Offloading, Self::Composition, Self::Line];
 
     /// Those that are records.
-    pub const RECORDS: [Self; 3] = [Self::Cycle, Self::Offloading, Self::Composition];
+    pub const RECORDS: [Self; 4] =
+        [Self::Cycle, Self::Offloading, Self::Composition, Self::Monitor];
 
     /// The word in the records and in reports.
     pub const fn name(self) -> &'static str {
@@ -37,6 +44,7 @@ impl Kind {
             Self::Cycle => "cycle",
             Self::Offloading => "offloading",
             Self::Composition => "composition",
+            Self::Monitor => "monitor",
             Self::Line => "line",
         }
     }
@@ -57,7 +65,7 @@ pub enum Breach {
     Stage,
     /// It takes invalid local input for valid, or the other way round, or names another place in it.
     Input,
-    /// The states or actions of an offloading trace differ.
+    /// The states or actions of an offloading trace, or of a monitor, differ.
     States,
     /// The compositions differ.
     Compositions,

@@ -9,14 +9,13 @@ use serde_json::{Map, Value};
 
 use crate::cases::question::Question;
 use crate::error::ConformError;
-use crate::judge::answer::{self, Said};
+use crate::judge::answer::{self, Said, names_another};
 use crate::judge::class::{Breach, Class, Kind, Scale};
 use crate::judge::norm;
+use crate::judge::states::States;
 use crate::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
-use mufasa_records::offloading_answer::OffloadingAnswer;
-use mufasa_records::record::offloading::event_type;
-use mufasa_records::{self as json, LineError, Trace, compose, names};
+use mufasa_records::{self as json, LineError, compose, names};
 
 /// Margin within which a disagreement counts as one at the threshold, m.
 const ROUNDING_M: f64 = 1e-6;
@@ -26,8 +25,8 @@ const ROUNDING_M: f64 = 1e-6;
 pub enum Expected {
     /// Of a cycle, exactly.
     Cycle(Box<Answer>),
-    /// Of a trace.
-    Offloading(OffloadingAnswer),
+    /// Of a trace or a monitor; `Err` is a setting that is refused.
+    States(Result<States, InvalidInput>),
     /// Of a composition; `Err` is invalid input.
     Composition(Result<CompositionAnswer, InvalidInput>),
     /// What is wrong with a line; nothing, when it was made so small that nothing is.
@@ -98,9 +97,8 @@ pub fn ask_and_compare(
 pub fn expect(id: &str, question: &Question) -> Expected {
     match question {
         Question::Cycle(cycle) => Expected::Cycle(Box::new(check(cycle, Reading::Exact))),
-        Question::Offloading(trace) => {
-            Expected::Offloading(OffloadingAnswer::run(id.to_owned(), trace))
-        }
+        Question::Offloading(trace) => Expected::States(Ok(States::of_trace(trace))),
+        Question::Monitor(sequence) => Expected::States(States::of_sequence(sequence)),
         Question::Composition(task) => {
             let composed = compose(task);
             let answer = |(_, answer)| CompositionAnswer::new(id.to_owned(), answer);
@@ -158,9 +156,7 @@ fn compare(
         (Question::Cycle(cycle), Expected::Cycle(exact)) => {
             Ok(compare_cycle(cycle, exact, answer::said(object)?, object))
         }
-        (Question::Offloading(trace), Expected::Offloading(expected)) => {
-            compare_states(trace, expected, object)
-        }
+        (_, Expected::States(expected)) => compare_states(expected, object),
         (Question::Composition(_), Expected::Composition(expected)) => {
             compare_compositions(expected, object)
         }
@@ -237,13 +233,6 @@ fn compare_place(exact: &Answer, said: Said, object: &Map<String, Value>) -> Opt
     wrong.then(|| Differs { breach: Breach::Input, place: place(), said: Some(said) })
 }
 
-/// Whether a place is named in an answer, but not this one.
-fn names_another(given: Option<&Value>, field: &str, index: Option<usize>) -> bool {
-    let named = given.and_then(|given| given.get("field"));
-    let at = given.and_then(|given| given.get("index")).unwrap_or(&Value::Null);
-    named.is_some_and(|named| *named != field || *at != Value::from(index))
-}
-
 /// Place of a stage in a report.
 pub fn index(stage: Stage) -> usize {
     Stage::ALL.iter().position(|it| *it == stage).unwrap_or(0)
@@ -268,26 +257,25 @@ pub fn is_within(cycle: &Cycle, said: Said, margin_m: f64) -> bool {
 }
 
 fn compare_states(
-    trace: &Trace,
-    expected: &OffloadingAnswer,
+    expected: &Result<States, InvalidInput>,
     object: &Map<String, Value>,
 ) -> Result<Option<Differs>, Broken> {
-    if answer::is_error(object) {
-        return Ok(Some(Differs::new(Breach::States, "error")));
-    }
-    let states = answer::list(object, "states")?;
-    for ((event, expected), state) in trace.events.iter().zip(&expected.states).zip(states) {
-        // The states are plain data: they always become JSON.
-        let expected = serde_json::to_value(expected).unwrap_or_default();
-        for key in ["mot", "plan", "hold_until_ns", "actions"] {
-            if state.get(key) != expected.get(key) {
-                let place = format!("{key} after {}", event_type(event));
-                return Ok(Some(Differs::new(Breach::States, place)));
-            }
+    let differs = |place: &str| Ok(Some(Differs::new(Breach::States, place)));
+    let expected = match (expected, answer::is_error(object)) {
+        (Err(problem), _) if problem.field == "work" => return Ok(None),
+        (Err(problem), true) => {
+            let wrong = names_another(object.get("error"), &problem.field, problem.index);
+            return if wrong { differs("error at another place") } else { Ok(None) };
         }
+        (Err(problem), false) => return differs(&format!("{} is not refused", problem.field)),
+        (Ok(_), true) => return differs("error"),
+        (Ok(expected), false) => expected,
+    };
+    let states = answer::list(object, "states")?;
+    if let Some(it) = expected.first_difference(states) {
+        return differs(&format!("{} after {}", it.field.replace('/', "."), it.event));
     }
-    let same = states.len() == expected.states.len();
-    Ok((!same).then(|| Differs::new(Breach::States, "number of states")))
+    if states.len() == expected.list.len() { Ok(None) } else { differs("number of states") }
 }
 
 fn compare_compositions(

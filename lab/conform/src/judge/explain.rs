@@ -15,12 +15,11 @@ use crate::cases::question::Question;
 use crate::judge::answer::{self, Said};
 use crate::judge::class::Breach;
 use crate::judge::examine::{Examined, Expected, index, is_within};
+use crate::judge::states::States;
 use crate::subject::Broken;
 use mufasa_drives::check::words;
 use mufasa_records::answer::decimal;
-use mufasa_records::offloading_answer::OffloadingAnswer;
-use mufasa_records::record::offloading::event_type;
-use mufasa_records::{Trace, names};
+use mufasa_records::names;
 
 /// Margins that are tried, m: those of the domain of `delta`.
 const MARGINS_M: [f64; 7] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
@@ -72,16 +71,15 @@ pub fn in_words(question: &Question, examined: &Examined) -> Told {
             let numbers = if broken { None } else { decide(cycle, exact, &examined.answered) };
             Told { answered, expected: verdict(exact, &examined.answered), numbers }
         }
-        (Question::Offloading(trace), Expected::Offloading(expected)) => {
-            match first_difference(trace, expected, &examined.answered) {
-                Some((expected, numbers)) => Told { answered, expected, numbers: Some(numbers) },
-                None => Told { answered, expected: shown(expected), numbers: None },
-            }
-        }
+        (_, Expected::States(Ok(expected))) => match first_difference(expected, &examined.answered)
+        {
+            Some((expected, numbers)) => Told { answered, expected, numbers: Some(numbers) },
+            None => Told { answered, expected: shown(&expected.list), numbers: None },
+        },
         (_, Expected::Composition(Ok(expected))) => {
             Told { answered, expected: shown(expected), numbers: None }
         }
-        (_, Expected::Composition(Err(problem))) => {
+        (_, Expected::States(Err(problem)) | Expected::Composition(Err(problem))) => {
             let expected = format!("error: {}", words::invalid(problem));
             Told { answered, expected, numbers: None }
         }
@@ -203,34 +201,16 @@ fn strictly(
 }
 
 /// The first state that differs: what it must be, and both values.
-fn first_difference(
-    trace: &Trace,
-    expected: &OffloadingAnswer,
-    answered: &Answered,
-) -> Option<(String, Numbers)> {
+fn first_difference(expected: &States, answered: &Answered) -> Option<(String, Numbers)> {
     let object: Value = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
-    let states = object.get("states")?.as_array()?;
-    for (at, (event, state)) in trace.events.iter().zip(&expected.states).enumerate() {
-        let wanted = serde_json::to_value(state).ok()?;
-        for key in ["mot", "plan", "hold_until_ns", "actions"] {
-            let found = states.get(at).and_then(|state| state.get(key));
-            if found != wanted.get(key) {
-                let text = |value: Option<&Value>| {
-                    value.map_or_else(|| String::from("missing"), ToString::to_string)
-                };
-                let what = format!("{key} after event {at} ({})", event_type(event));
-                let (left, right) = (text(found), text(wanted.get(key)));
-                let expected = format!("{what} must be {right}, is {left}");
-                let apart = |left: Option<&Value>, right: Option<&Value>| {
-                    Some((i128::from(left?.as_i64()?) - i128::from(right?.as_i64()?)).abs())
-                };
-                let margin =
-                    apart(found, wanted.get(key)).map_or_else(String::new, |it| it.to_string());
-                return Some((expected, Numbers { what, left, right, margin }));
-            }
-        }
-    }
-    None
+    let difference = expected.first_difference(object.get("states")?.as_array()?)?;
+    let (what, wanted, found) = (difference.place(), difference.wanted, difference.found);
+    let left = found.as_ref().map_or_else(|| String::from("missing"), ToString::to_string);
+    let right = wanted.to_string();
+    let told = format!("{what} must be {right}, is {left}");
+    let apart = |it: Value| Some((i128::from(it.as_i64()?) - i128::from(wanted.as_i64()?)).abs());
+    let margin = found.and_then(apart).map_or_else(String::new, |it| it.to_string());
+    Some((told, Numbers { what, left, right, margin }))
 }
 
 fn shown(answer: &impl Serialize) -> String {

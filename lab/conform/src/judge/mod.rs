@@ -5,3 +5,4 @@ pub mod class;
 pub mod examine;
 pub mod explain;
 pub mod norm;
+pub mod states;

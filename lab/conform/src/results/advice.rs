@@ -109,5 +109,6 @@ pub fn is_much(wrong: u64, asked: u64) -> bool {
 /// Whether less cannot be asked, or other options would not mean less.
 fn is_least(summary: &Summary) -> bool {
     let campaign = &summary.campaign;
-    !campaign.drives.is_empty() || (campaign.profile == "paper" && campaign.kinds == [Kind::Cycle])
+    let is_least = campaign.profile == "paper" && campaign.kinds == [Kind::Cycle];
+    !campaign.drives.is_empty() || is_least || !campaign.kinds.contains(&Kind::Cycle)
 }

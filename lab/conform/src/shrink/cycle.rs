@@ -29,10 +29,7 @@ impl Case<'_> {
     pub fn cycle(&self) -> Option<&Cycle> {
         match &self.question {
             Question::Cycle(cycle) => Some(cycle),
-            Question::Offloading(_)
-            | Question::Composition(_)
-            | Question::Line(_)
-            | Question::Text(_) => None,
+            _ => None,
         }
     }
 
@@ -252,7 +249,7 @@ fn steps(cells: usize) -> f64 {
 
 /// Every number that may have a fraction with as few decimals as possible: all at once, then one by
 /// one. Parameters keep theirs.
-fn rounded(case: &mut Case<'_>) {
+pub fn rounded(case: &mut Case<'_>) {
     const DECIMALS: [i32; 6] = [0, 1, 2, 3, 6, 9];
     let to = |value: f64, decimals: i32| {
         let scale = 10_f64.powi(decimals);

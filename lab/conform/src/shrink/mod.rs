@@ -5,6 +5,7 @@ mod cycle;
 mod passes;
 mod program;
 mod record;
+mod sequence;
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;

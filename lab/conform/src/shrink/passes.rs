@@ -1,8 +1,8 @@
 //! All passes that make a record small, until nothing changes any more.
 
 use crate::cases::question::{Damaged, Question};
-use crate::shrink::cycle;
 use crate::shrink::record::Case;
+use crate::shrink::{cycle, sequence};
 
 /// The smallest record found; `shows` says whether one still shows the class.
 pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
@@ -18,10 +18,15 @@ pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -
     // At most a few times, until nothing changes any more.
     for _ in 0..4 {
         let before = case.value.clone();
+        if matches!(case.question, Question::Monitor(_)) {
+            sequence::shorter(&mut case);
+        }
         case.keys();
         case.lists();
-        if matches!(case.question, Question::Cycle(_)) {
-            cycle::smaller(&mut case);
+        match case.question {
+            Question::Cycle(_) => cycle::smaller(&mut case),
+            Question::Monitor(_) => sequence::rounder(&mut case),
+            _ => {}
         }
         case.simple();
         if case.value == before {
@@ -35,11 +40,13 @@ pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -
 mod tests {
     use mufasa_model::cycle::check;
     use mufasa_model::input::cycle::Profile;
+    use mufasa_model::monitor::messages::EventKind;
     use mufasa_model::report::{FailedStage, Reading, Stage};
 
     use super::*;
     use crate::cases::generate::Generator;
     use crate::judge::class::Kind;
+    use mufasa_records::monitor_answer::answers;
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
         let generator = Generator { seed: 5, profile: Profile::PAPER, kinds: vec![kind] };
@@ -83,6 +90,24 @@ mod tests {
         let tracks = |it: &Question| it.line("x").contains("\"tracks\"");
         let found = smallest(&first(Kind::Composition, tracks), &mut |it| tracks(it));
         assert_eq!(found.objects(), 1);
+    }
+
+    /// The monitor is started later, cycles measure less, and all of an event is at its time.
+    #[test]
+    fn of_a_sequence_only_what_is_needed_stays() {
+        fn comes_out(question: &Question) -> bool {
+            let Question::Monitor(sequence) = question else { return false };
+            let answers = answers(sequence, Reading::Exact).unwrap_or_default();
+            answers.iter().any(|it| it.decision.as_ref().is_some_and(|it| it.tracks.is_some()))
+        }
+        let is_late = |it: &Question| it.line("x").contains("\"session\": 9") && comes_out(it);
+        let found = smallest(&first(Kind::Monitor, is_late), &mut |it| comes_out(it));
+        let Question::Monitor(sequence) = &found else { panic!() };
+        // An offer, a tick that asks, its confirmation, tracks, and the cycle.
+        assert_eq!(sequence.events.len(), 5, "{}", found.line("x"));
+        assert!(found.line("x").contains("\"session\": 1"), "{}", found.line("x"));
+        let EventKind::Cycle { measured } = &sequence.events[4].kind else { panic!() };
+        assert!(measured.grid.is_none() && measured.trajectory.is_none());
     }
 
     /// Whether stage i fails exactly, but not with a margin of a micrometre.

@@ -68,8 +68,10 @@ impl Validity {
                 Ok(_) => Self::RemoteInvalid,
                 Err(_) => Self::Refused,
             },
-            Expected::Offloading(_) | Expected::Composition(Ok(_)) => Self::Valid,
-            Expected::Composition(Err(_)) | Expected::Line(_) => Self::Refused,
+            Expected::States(Ok(_)) | Expected::Composition(Ok(_)) => Self::Valid,
+            Expected::States(Err(_)) | Expected::Composition(Err(_)) | Expected::Line(_) => {
+                Self::Refused
+            }
         }
     }
 }

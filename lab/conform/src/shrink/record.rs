@@ -105,12 +105,14 @@ impl Case<'_> {
     /// what is true becomes false.
     pub fn simple(&mut self) {
         let times = leaves(&self.value, |place, _| {
-            place.starts_with("/events/") && place.ends_with("/t_ns")
+            place.starts_with("/events/")
+                && place.ends_with("/t_ns")
+                && place.matches('/').count() == 3
         });
         self.change_at(&times, |_| Some(json!(0)));
         let mut before = 0_i64;
         for place in &times {
-            self.put(place, [0, before, before.saturating_add(1)]);
+            self.put(place, [before, before.saturating_add(1)]);
             before = self.value.pointer(place).and_then(Value::as_i64).unwrap_or(0);
         }
         let names = |place: &str, value: &Value| {

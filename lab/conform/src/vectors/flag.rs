@@ -6,10 +6,10 @@ use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Reading};
 
-use mufasa_records::monitor_answer::{self, MonitorState};
+pub use crate::judge::states::decisions;
+
 use mufasa_records::offloading_answer::OffloadingAnswer;
 use mufasa_records::{Sequence, Trace};
-use serde_json::Value;
 
 /// Whom a vector binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,21 +57,6 @@ pub fn of_sequence(sequence: &Sequence) -> Flag {
         .iter()
         .all(|reading| decisions(sequence, *reading) == decisions(&other, *reading));
     if same { Flag::Must } else { only(sequence.profile) }
-}
-
-/// What a sequence is answered in a reading, without witnesses; `Err` is the setting that is refused.
-pub fn decisions(sequence: &Sequence, reading: Reading) -> Result<Vec<Value>, String> {
-    let answers = monitor_answer::answers(sequence, reading).map_err(|problem| problem.field)?;
-    let plain = |answer| {
-        // Answers are plain data: they always become JSON.
-        let mut state = serde_json::to_value(MonitorState::new(answer)).unwrap_or_default();
-        for place in ["/decision", "/decision/brake"] {
-            let object = state.pointer_mut(place).and_then(Value::as_object_mut);
-            object.map(|object| object.remove("witness"));
-        }
-        state
-    };
-    Ok(answers.into_iter().map(plain).collect())
 }
 
 /// The other profile.

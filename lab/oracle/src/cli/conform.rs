@@ -50,7 +50,8 @@ pub(super) struct ConformArguments {
     /// Longest time to make records small, at the end, s.
     #[arg(long, value_name = "S", default_value = "60", value_parser = whole(0_u64, 86_400))]
     pub(super) shrinking: u64,
-    /// Kinds of generated records; `line` is one that breaks the schema or is no JSON.
+    /// Kinds of records; `line` is one that breaks the schema or is no JSON. `monitor`, a sequence of events and
+    /// cycles, is asked only when it is named: few programs are monitors.
     #[arg(
         long,
         value_name = "KINDS",

@@ -37,9 +37,9 @@ fn who_gives_no_answer_or_another_is_found() {
 #[test]
 fn who_dies_is_started_again_until_it_is_given_up() {
     let script = "read -r line; echo 'out of luck' >&2; exit 7";
-    let options = "--cases 100 --kinds cycle,offloading,composition";
+    let options = "--cases 100 --kinds cycle,offloading,composition,monitor";
     let (summary, told) = wrong("dies", options, script);
-    assert_eq!(summary.classes.len(), 3, "{told}");
+    assert_eq!(summary.classes.len(), 4, "{told}");
     for found in &summary.classes {
         assert_eq!((found.class.breach, found.count), (Breach::Dies, 5), "{told}");
         assert!(found.told.answered.contains("exit status: 7"), "{told}");

@@ -20,7 +20,7 @@ fn model_and_implementation_conform_in_both_profiles() {
             let reached = summary.groups.iter().any(|group| group.expected == verdict);
             assert!(reached, "{profile}: no case is {verdict}");
         }
-        for kind in Kind::ALL {
+        for kind in Kind::USUAL {
             assert!(summary.groups.iter().any(|group| group.kind == kind));
         }
         // The command of docs/conformance.md; it composes nothing.
@@ -28,6 +28,20 @@ fn model_and_implementation_conform_in_both_profiles() {
         let script = format!("exec '{MUFASA}' oracle --implementation");
         let run = with_vectors(&format!("implementation-{profile}"), &options, &script);
         assert_eq!(run.code, Some(0), "{}", run.told);
+    }
+}
+
+/// A monitor is asked for when it is named, and never else.
+#[test]
+fn the_model_conforms_as_a_monitor() {
+    for profile in ["paper", "hardened"] {
+        let options = format!("--profile {profile} --kinds monitor,line --cases 60");
+        let run = with_vectors(&format!("monitor-{profile}"), &options, &right());
+        assert_eq!(run.code, Some(0), "{}", run.told);
+        let summary = run.summary();
+        let of = |kind| summary.groups.iter().filter(move |group| group.kind == kind);
+        assert!(of(Kind::Monitor).count() > 1 && of(Kind::Line).count() > 0, "{}", run.told);
+        assert!(summary.vectors > 60, "{}", run.told);
     }
 }
 

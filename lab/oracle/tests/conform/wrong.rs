@@ -80,6 +80,24 @@ fn who_forgets_a_hold_or_a_composition_is_found_in_one_object() {
     assert_eq!(class(&found, Breach::Compositions, "one is missing").size, 1, "{}", found.1);
 }
 
+/// A difference of a monitor is told with its event, its field and the requirement, of a sequence made small.
+#[test]
+fn who_forgets_a_rule_of_the_monitor_is_told_which() {
+    let forgets = changed(r#"s/"dropped":"stale"/"dropped":null/g"#);
+    let found = wrong("monitor", "--kinds monitor --cases 20", &forgets);
+    let stale = class(&found, Breach::States, "dropped after tracks");
+    let expected = &stale.told.expected;
+    assert!(expected.starts_with("dropped after event "), "{expected}");
+    assert!(expected.ends_with("(tracks) [MON-30] must be \"stale\", is null"), "{expected}");
+    // A cycle whose detections are kept, an offer, a tick that asks, the confirmation, and the tracks.
+    assert_eq!(stale.size, 5, "{}", found.1);
+    let lenient = changed(r#"s/"verdict":"error".*/"states":[]}/"#);
+    let (summary, told) = wrong("monitor-settings", "--kinds monitor --cases 60", &lenient);
+    for found in &summary.classes {
+        assert!(found.class.place.ends_with("is not refused"), "{told}");
+    }
+}
+
 /// What only the tolerance lets pass is no conformance, of vectors and of cases. TOOL-05, TOOL-06.
 #[test]
 fn what_only_a_tolerance_lets_pass_is_said_not_to_conform() {

@@ -9,13 +9,15 @@ mod times;
 pub use self::scene::route;
 
 use mufasa_model::input::profile::Profile;
+use mufasa_model::monitor::Monitor;
 use mufasa_model::monitor::messages::{Answer, Event, EventKind};
 use mufasa_model::monitor::settings::Settings;
 use mufasa_model::offloading::requester::GroupState;
+use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::{Group, Groups};
 
 use self::scene::Scene;
-use self::settings::accepted;
+use self::settings::{accepted, at_a_bound};
 use self::times::{MS, Times};
 use super::draw::Draw;
 
@@ -27,6 +29,31 @@ const SETS: [Groups; 5] = [
     Groups { mot: false, plan: true },
     Groups::NONE,
 ];
+
+/// How many events and cycles a whole sequence has.
+const STEPS: [usize; 3] = [150, 60, 400];
+
+/// A whole sequence: settings, one of which may be at a bound of what is refused, and events, none where one is.
+pub fn sequence(tape: &[u32], profile: Profile) -> (Settings, Vec<Event>) {
+    let (own, tape) = tape.split_at(tape.len().min(4));
+    let (mut script, mut settings) = Script::new(tape, profile);
+    let mut draw = Draw::new(own);
+    let steps = draw.pick(&STEPS);
+    if draw.one_in(12) {
+        at_a_bound(&mut draw, &mut settings);
+        script.settings = settings.clone();
+    }
+    let Ok(mut model) = Monitor::new(settings.clone(), route(), Reading::Exact) else {
+        return (settings, Vec::new());
+    };
+    let step = |_| {
+        let event = script.event();
+        script.take(&event, &model.step(event.clone()));
+        event
+    };
+    let events = (0..steps).map(step).collect();
+    (settings, events)
+}
 
 /// A sequence that goes on for ever; behind the end of the tape it is the simplest one.
 #[derive(Debug)]

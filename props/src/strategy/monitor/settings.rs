@@ -36,3 +36,25 @@ pub fn accepted(draw: &mut Draw<'_>, profile: Profile) -> Settings {
         memory: Memory { tracks: 2, detections: 3, cross_sections: 3 },
     }
 }
+
+/// Puts one of them at a bound of what is refused, or beside it.
+pub fn at_a_bound(draw: &mut Draw<'_>, settings: &mut Settings) {
+    let Settings { parameters, requester, .. } = settings;
+    match draw.below(12) {
+        0 => requester.dt_max_ns = draw.near_ns(settings.period_ns),
+        1 => parameters.max_age_ns = draw.near_ns(requester.l_max_ns),
+        2 => parameters.tau = draw.pick(&[0.1, 0.1_f64.next_up(), 0.1_f64.next_down()]),
+        3 => requester.t_wait_ns = draw.pick(&[1_000 * MS, 1_000 * MS - 1, 1, 0]),
+        4 => requester.request_timeout_ns = draw.pick(&[MS, MS - 1, 1, 0, -1]),
+        5 => requester.l_max_ns = draw.pick(&[MS, MS - 1, 1, 0, -1]),
+        6 => parameters.step_max_ns = draw.pick(&[MS, MS - 1, 1, 0, -1]),
+        7 => settings.period_ns = draw.pick(&[MS, MS - 1, 0, -1]),
+        8 => settings.last_session = draw.pick(&[i64::MAX - 1, i64::MAX, -1, 0]),
+        9 => {
+            let way = draw.pick(&[0.0, -0.0, f64::from_bits(1), -f64::from_bits(1)]);
+            settings.stall = Some(Stall { way, time_ns: draw.near_ns(1_000 * MS) });
+        }
+        10 => settings.memory.tracks = draw.pick(&[1, 0]),
+        _ => settings.memory.cross_sections = draw.pick(&[3, 2]),
+    }
+}
