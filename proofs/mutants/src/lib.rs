@@ -20,6 +20,8 @@ pub enum Engine {
     Harnesses,
     /// Harnesses compiled, judged by CBMC.
     Cbmc,
+    /// Vectors and properties of the monitor; a claim is a requirement of `spec/monitor.md`.
+    Monitor,
 }
 
 /// A change of the sources, and the claims that fail with it.

@@ -8,6 +8,7 @@ use mufasa_mutants::place::{Sources, Span};
 use mufasa_mutants::{Engine, Mutant, Seen};
 
 const HARNESSES: &str = include_str!("../../HARNESSES.md");
+const MONITOR: &str = include_str!("../../mutants-monitor.md");
 
 #[test]
 fn every_change_for_cbmc_is_in_the_record() {
@@ -40,6 +41,28 @@ fn none_survived_and_the_number_of_runs_is_said() {
     }
     let number = format!("Of {} such pairs {} ", seen.len(), seen.iter().filter(was_run).count());
     assert!(HARNESSES.contains(&number), "proofs/HARNESSES.md does not say: {number}");
+}
+
+/// The page is of the list as it is, none survived, and `proofs/HARNESSES.md` says how many were run.
+#[test]
+fn each_seeded_bug_of_the_monitor_is_on_the_page() {
+    let mutants = mufasa_mutants::all().expect("the list is read");
+    let said = mutants.iter().flat_map(|mutant| {
+        let claims = mutant.refutes.get(&Engine::Monitor).into_iter().flatten();
+        claims.map(move |claim| format!("| {claim} | {} |", mutant.change))
+    });
+    let mut said: Vec<String> = said.collect();
+    said.sort();
+    let rows: Vec<&str> = MONITOR.lines().filter(|it| it.starts_with("| MON-")).collect();
+    assert_eq!(rows.len(), said.len(), "scripts/mutants monitor");
+    let run = rows.iter().filter(|row| !row.contains("| not run |")).count();
+    let number = format!("{run} of {} are recorded as run", rows.len());
+    assert!(HARNESSES.contains(&number), "proofs/HARNESSES.md does not say: {number}");
+    for (row, said) in rows.iter().zip(&said) {
+        assert!(row.starts_with(said), "scripts/mutants monitor: {said}");
+        let found = row.split('|').skip(3).take(3).any(|cell| !cell.trim().is_empty());
+        assert!(found, "it survives: {row}");
+    }
 }
 
 /// Its item is there, and `from` stands in it once.
