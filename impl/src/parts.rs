@@ -8,21 +8,20 @@ use core::cmp::Ordering;
 use crate::hardened::h07_start;
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{
-    Cycle, DetectionList, Grid, Lead, Route, TrackList, Trajectory, TrajectoryPoint,
+    Cycle, DetectionList, Grid, Lead, Route, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 use crate::input::domain::route::check_route;
 use crate::input::domain::{
     CheckedBefore, check_detections, check_grid, check_lead, check_tracks, check_trajectory,
 };
 use crate::input::parameters::Parameters;
-use crate::input::profile::HardenedRule;
 use crate::input::scratch::Row;
 use crate::numbers::exact::limbs;
+use crate::numbers::time::elapsed_ns;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
-use crate::report::Witness;
 use crate::stages::distances;
-use crate::stages::horizon::{self, Horizon};
-use crate::stages::i_track_validation::gate;
+use crate::stages::horizon;
+use crate::stages::i_track_validation::gate::{self, Gate};
 use crate::stages::i_track_validation::places::Places;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 
@@ -46,9 +45,16 @@ pub fn s_valid(parameters: &Parameters, v_now: f64, v_lead: Option<f64>) -> f64 
     distances::s_valid(parameters, v_now, v_lead)
 }
 
-/// `s_stop` in plain doubles, m. Source: `spec/hardened/H-14.md#requirements-windows`.
-pub fn s_stop(cycle: &Cycle<'_>) -> f64 {
-    Times::new(cycle).s_stop
+/// What `s_follow` is in plain doubles of `s_b(v_now)`, `s_b(v_lead)` and `s_CAV`, m. Source: `spec/3-stages.md#distances`.
+pub fn follow(ways: [f64; 2], s_cav: f64) -> f64 {
+    distances::follow(ways, s_cav)
+}
+
+/// Speed after `tau`, the way until then, and `s_stop`, in plain doubles, m/s and m. Source:
+/// `spec/hardened/H-14.md#requirements-windows`.
+pub fn stop(cycle: &Cycle<'_>) -> [f64; 3] {
+    let Times { v_tau, s_tau, s_stop, .. } = Times::new(cycle);
+    [v_tau, s_tau, s_stop]
 }
 
 /// As `Requester::step`, but what has to be done kind by kind, for MOT and PLAN: drops, releases,
@@ -121,6 +127,11 @@ pub fn product_of_limbs(a: &[u64; 2], b: &[u64; 2]) -> [u64; 4] {
     limbs::product(a, b)
 }
 
+/// The 57 bits from this one on, in a word whose other bits are not set. Source: `spec/5-interfaces.md#cycle`.
+pub fn bits_from(bits: &[u8], bit: i64) -> Option<u64> {
+    Bitmap { bits, width: 0, height: 0 }.bits_from(bit)
+}
+
 /// The first set cell of a row from one column to another, in a bitmap of so many columns and rows.
 /// Source: `spec/5-interfaces.md#cycle`.
 pub fn first_in_row(
@@ -155,30 +166,51 @@ pub fn cell_within(
     found.map(|near| [near.column, near.row, near.squared])
 }
 
-/// How many points of the trajectory stage v examines. Source: `spec/3-stages.md#distances`.
-pub fn points_examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> usize {
-    horizon::points_examined(cycle, points, Horizon::Braking).len()
+/// Whether a way of plain doubles is within a horizon between these two; `None`: they cannot tell. Source:
+/// `spec/3-stages.md#distances`.
+pub fn plainly_within(arc: f64, horizon: [f64; 2]) -> Option<bool> {
+    horizon::plainly_within(arc, horizon)
 }
 
-/// What the start of a trajectory breaks. Source: `spec/hardened/H-07.md`, H-07.
-pub fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
-    h07_start::start_failure(cycle, points)
+/// How many of three points are examined, by whether the second and the third are within the horizon. Source:
+/// `spec/3-stages.md#distances`.
+pub fn points_examined(is_within: [Option<bool>; 2]) -> Option<usize> {
+    let nowhere = TrajectoryPoint { t_ns: 0, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    let mut answers = is_within.into_iter();
+    horizon::prefix(&[nowhere; 3], |_, _| answers.next().flatten())
 }
 
-/// The indices of the first two gated tracks. Source: `spec/3-stages.md#stage-i-track-validation`.
-pub fn gated_tracks(
-    cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
-    detections: &DetectionList<'_>,
-) -> [Option<u16>; 2] {
-    let mut rows = [Row::default(); 2];
-    let places = if cycle.profile.has(HardenedRule::H01) {
-        Places::at(tracks, detections.stamp_ns)
-    } else {
-        Places::standing(tracks.items)
+/// Whether a trajectory whose first point has this time starts about now. Source: `spec/hardened/H-07.md`, H-07.
+pub fn starts_in_time(t_ns: i64, now_ns: i64, max_age_ns: i64) -> bool {
+    h07_start::is_in_time(elapsed_ns(t_ns, now_ns), max_age_ns)
+}
+
+/// Whether a track is gated whose squared distance is this, the farthest detection's being the other; `None`: plain
+/// doubles cannot tell. `ahead_ns`: for how long tracks move. Source: `spec/3-stages.md#stage-i-track-validation`.
+pub fn gate_decides(away: f64, farthest: f64, ahead_ns: i64) -> Option<bool> {
+    let tracks = TrackList { stamp_ns: 0, items: &[] };
+    let places = Places::at(&tracks, ahead_ns);
+    let mut gate = Gate::new([0.0; 2], &places);
+    gate.farthest = farthest;
+    gate.decides(away)
+}
+
+/// Of three tracks, the indices of the first two gated ones. Source: `spec/3-stages.md#stage-i-track-validation`.
+pub fn gated_tracks(is_gated: [bool; 3]) -> [Option<u16>; 2] {
+    let nobody = Track {
+        id: 1,
+        x: 0.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        vx: 0.0,
+        vy: 0.0,
+        length: 1.0,
+        width: 1.0,
     };
-    let p = [cycle.ego.x, cycle.ego.y];
-    let count = gate::gated_tracks(p, &places, detections.items, &mut rows);
+    let mut rows = [Row::default(); 2];
+    let mut answers = is_gated.into_iter();
+    let listed = gate::list(&[nobody; 3], &mut rows, |_, _| answers.next().unwrap_or(false));
     let [first, second] = rows.map(|row| row.track);
-    [(count > 0).then_some(first), (count > 1).then_some(second)]
+    [(listed > 0).then_some(first), (listed > 1).then_some(second)]
 }

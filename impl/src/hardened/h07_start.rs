@@ -18,7 +18,7 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     let first = points.first()?;
     let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
     let max_age_ns = cycle.parameters.max_age_ns;
-    if age_ns > max_age_ns || age_ns < max_age_ns.saturating_neg() {
+    if !is_in_time(age_ns, max_age_ns) {
         let compared =
             [age_ns.saturating_abs(), max_age_ns].map(|time_ns| Real::seconds(time_ns).value());
         return Some(Witness::of(Rule::StartTime, compared).at_point(0));
@@ -42,6 +42,11 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     broken.map(|(rule, (value, limit, _))| {
         Witness::of(rule, [value.value(), limit.value()]).at_point(0)
     })
+}
+
+/// Whether a trajectory that is so old starts about now.
+pub(crate) const fn is_in_time(age_ns: i64, max_age_ns: i64) -> bool {
+    max_age_ns.saturating_neg() <= age_ns && age_ns <= max_age_ns
 }
 
 /// A point outside the corridor.

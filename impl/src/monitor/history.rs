@@ -20,19 +20,19 @@ const REACH_NS: i64 = 500_000_000;
 
 /// A list that is kept.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
-    stamp_ns: i64,
-    count: usize,
-    shape: Shape,
+pub(crate) struct Kept {
+    pub(crate) stamp_ns: i64,
+    pub(crate) count: usize,
+    pub(crate) shape: Shape,
 }
 
 /// The lists of the last second.
 #[derive(Debug)]
-pub(super) struct History<'a> {
-    kept: [Option<Kept>; PLACES],
+pub(crate) struct History<'a> {
+    pub(crate) kept: [Option<Kept>; PLACES],
     /// The place of the oldest list, or of none: the next to be taken.
-    next: usize,
-    youngest_ns: Option<i64>,
+    pub(crate) next: usize,
+    pub(crate) youngest_ns: Option<i64>,
     detections: &'a mut [Detection],
     slots: &'a mut [Slot],
     /// For the index of the current list.
@@ -49,7 +49,7 @@ pub(super) struct Selection<'s> {
 
 impl<'a> History<'a> {
     /// Empty. Lists of at most `capacity` can be kept; `None`: there are too few slots for that.
-    pub(super) fn new(
+    pub(crate) fn new(
         detections: &'a mut [Detection],
         slots: &'a mut [Slot],
         capacity: usize,
@@ -66,7 +66,7 @@ impl<'a> History<'a> {
 
     /// Whether a list is kept that is from 500 ms to 1 s old at this time: soon after it a cycle finds how
     /// what it sees has moved (H-14).
-    pub(super) fn reaches_back(&self, now_ns: i64) -> bool {
+    pub(crate) fn reaches_back(&self, now_ns: i64) -> bool {
         let ages = REACH_NS..=LONGEST_NS;
         self.kept.iter().flatten().any(|kept| ages.contains(&elapsed_ns(kept.stamp_ns, now_ns)))
     }
@@ -106,7 +106,7 @@ impl<'a> History<'a> {
 
     /// Copies a list that is current and valid, and its index, if its time has come. `shape`: of its
     /// index, which `select` has left in the memory for the current list.
-    pub(super) fn keep(&mut self, list: &DetectionList<'_>, shape: Shape) {
+    pub(crate) fn keep(&mut self, list: &DetectionList<'_>, shape: Shape) {
         if let Some(youngest_ns) = self.youngest_ns {
             let since_ns = elapsed_ns(youngest_ns, list.stamp_ns);
             if since_ns < LONGEST_NS.saturating_neg() {
@@ -132,7 +132,7 @@ impl<'a> History<'a> {
 }
 
 /// The places of the usable lists whose ages are nearest to those wanted, of two the younger.
-fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64) -> [Option<usize>; 3] {
+pub(crate) fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64) -> [Option<usize>; 3] {
     let mut found = WANTED_NS.map(|wanted_ns| (wanted_ns.saturating_mul(2), u64::MAX, None));
     for (at, kept) in kept.iter().enumerate() {
         let Some(kept) = kept else { continue };

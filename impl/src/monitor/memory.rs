@@ -8,7 +8,7 @@ use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::StationRecord;
 
 /// How many earlier lists of detections are kept.
-pub(super) const PLACES: usize = 12;
+pub(crate) const PLACES: usize = 12;
 
 /// Slices that the monitor has for itself as long as it lives; what they hold before means nothing.
 /// What does not fit into them is refused when it comes, and never cut off.

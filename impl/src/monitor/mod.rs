@@ -17,7 +17,7 @@ mod cycle;
 mod decision;
 mod element;
 mod events;
-mod history;
+pub(crate) mod history;
 mod inputs;
 pub(crate) mod memory;
 mod own_plan;
@@ -25,7 +25,7 @@ pub(crate) mod released;
 pub(crate) mod route;
 pub(crate) mod served;
 mod settings;
-mod stall;
+pub(crate) mod stall;
 mod time;
 
 pub use self::decision::{Brake, Decision, Verified};

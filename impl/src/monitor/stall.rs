@@ -23,19 +23,19 @@ impl Default for Stall {
 
 /// How long the CAV has got nowhere.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Progress {
+pub(crate) struct Progress {
     /// The place that it has not left since.
-    place: [f64; 2],
+    pub(crate) place: [f64; 2],
     /// For how long PLAN has been remote since, ns.
-    pub(super) remote_ns: i64,
+    pub(crate) remote_ns: i64,
     /// The last cycle, where PLAN was remote in it.
-    last_ns: Option<i64>,
-    pub(super) given_back: Option<Time>,
+    pub(crate) last_ns: Option<i64>,
+    pub(crate) given_back: Option<Time>,
 }
 
 impl Progress {
     /// A cycle that found the CAV at a place, after which PLAN is remote or not.
-    pub(super) fn cycle(
+    pub(crate) fn cycle(
         &mut self,
         now_ns: i64,
         place: Option<[f64; 2]>,

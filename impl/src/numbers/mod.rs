@@ -8,9 +8,5 @@ pub(crate) mod exact;
 pub(crate) mod plane;
 pub(crate) mod range;
 pub(crate) mod rectangle;
-#[cfg(not(arbitrary = "rounding"))]
-pub(crate) mod rounding;
-#[cfg(arbitrary = "rounding")]
-#[path = "rounding/any_answer.rs"]
 pub(crate) mod rounding;
 pub(crate) mod time;

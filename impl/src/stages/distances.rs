@@ -105,8 +105,13 @@ pub(crate) fn s_b<N: Number>(parameters: &Parameters, v: N) -> N {
 
 /// `s_follow` = max(`s_b(v_now)` - `s_b(v_lead)`, 0) + `s_CAV`, m.
 pub(crate) fn s_follow<N: Number>(parameters: &Parameters, v_now: f64, v_lead: f64) -> N {
-    let [now, lead] = [v_now, v_lead].map(|v| s_b(parameters, N::from_double(v)));
-    now.minus(lead).or_larger(N::from_double(0.0)).plus(s_cav(parameters, v_now))
+    let ways = [v_now, v_lead].map(|v| s_b(parameters, N::from_double(v)));
+    follow(ways, s_cav(parameters, v_now))
+}
+
+/// The same of `s_b(v_now)`, `s_b(v_lead)` and `s_CAV`, m.
+pub(crate) fn follow<N: Number>([now, lead]: [N; 2], s_cav: N) -> N {
+    now.minus(lead).or_larger(N::from_double(0.0)).plus(s_cav)
 }
 
 /// `s_valid` = `s_follow` behind a leading vehicle, else `s_b(v_now)`, m.

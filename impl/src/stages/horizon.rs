@@ -48,38 +48,50 @@ pub(crate) fn points_examined<'a>(
     points.get(..count).unwrap_or(points)
 }
 
-/// How many points are examined. They form a prefix: those within s, of which the first is always
-/// one.
-fn examined(points: &[TrajectoryPoint], s: Real) -> usize {
-    let mut arc = Real::ZERO;
+/// How many points are examined: the first, and those after it up to one that is not within s; `None` where that is
+/// open.
+pub(crate) fn prefix(
+    points: &[TrajectoryPoint],
+    mut is_within: impl FnMut(&TrajectoryPoint, &TrajectoryPoint) -> Option<bool>,
+) -> Option<usize> {
     let mut count = 1_usize;
     for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        arc = arc + distance([a.x, a.y], [b.x, b.y]);
-        if !arc.possibly_at_most(s) {
+        if !is_within(a, b)? {
             break;
-        }
-        count = count.saturating_add(1);
-    }
-    count
-}
-
-/// The same in plain doubles, unless they cannot tell: stage iii of W1 takes a sixth of the instructions so. A step errs by less than 2^-50 of its size
-/// and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-40 of all
-/// sizes together.
-fn plainly_examined(points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
-    let mut arc = 0.0;
-    let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        arc += libm::sqrt(dx * dx + dy * dy);
-        let error = arc * 1e-12 + 1e-140;
-        if arc - error > most {
-            break;
-        }
-        if arc + error > least {
-            return None;
         }
         count = count.saturating_add(1);
     }
     Some(count)
+}
+
+fn examined(points: &[TrajectoryPoint], s: Real) -> usize {
+    let mut arc = Real::ZERO;
+    let count = prefix(points, |a, b| {
+        arc = arc + distance([a.x, a.y], [b.x, b.y]);
+        Some(arc.possibly_at_most(s))
+    });
+    count.unwrap_or(points.len())
+}
+
+/// The same in plain doubles, unless they cannot tell: stage iii of W1 takes a sixth of the instructions so.
+fn plainly_examined(points: &[TrajectoryPoint], s: [f64; 2]) -> Option<usize> {
+    let mut arc = 0.0;
+    prefix(points, |a, b| {
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        arc += libm::sqrt(dx * dx + dy * dy);
+        plainly_within(arc, s)
+    })
+}
+
+/// Whether a way is within s. A step errs by less than 2^-50 of its size and 1e-150 m (squares may underflow), a sum
+/// of at most 1023 of them by less than 2^-40 of all sizes together.
+pub(crate) fn plainly_within(arc: f64, [least, most]: [f64; 2]) -> Option<bool> {
+    let error = arc * 1e-12 + 1e-140;
+    if arc - error > most {
+        Some(false)
+    } else if arc + error > least {
+        None
+    } else {
+        Some(true)
+    }
 }

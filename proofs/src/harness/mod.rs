@@ -17,6 +17,8 @@ pub mod group;
 mod items;
 pub mod lists;
 pub mod monitor_arriving;
+pub mod monitor_history;
+pub mod monitor_limits;
 pub mod monitor_memory;
 pub mod monitor_released;
 pub mod monitor_served;
@@ -48,6 +50,8 @@ harnesses! {
     actions:
         verify_actions_come_in_their_order;
     bitmap:
+        verify_a_word_has_the_bits_from_a_place
+        verify_a_word_ends_with_the_bitmap
         verify_the_first_set_cell_of_a_row_is_found
         verify_a_free_row_has_no_set_cell
         verify_the_first_near_cell_is_found;
@@ -75,6 +79,8 @@ harnesses! {
         verify_data_of_another_session_are_dropped
         verify_a_group_depends_on_itself_alone_at_areas
         verify_a_group_depends_on_itself_alone_at_verdicts
+        verify_a_group_depends_on_itself_alone_at_offers
+        verify_a_group_depends_on_itself_alone_at_ticks
         verify_a_session_left_is_released_at_withdrawals;
     lists:
         verify_a_route_is_checked
@@ -87,6 +93,14 @@ harnesses! {
         verify_a_message_is_accepted_exactly_when_it_is_of_use
         verify_the_reason_of_a_drop_is_the_first_that_holds
         verify_what_no_cycle_can_use_is_no_arrival;
+    monitor_history:
+        verify_no_list_of_the_last_second_is_lost
+        verify_the_nearest_usable_lists_are_looked_at
+        verify_half_a_second_was_seen_when_a_list_is_so_old;
+    monitor_limits:
+        verify_brake_by_is_tau_after_the_cycle
+        verify_settings_are_refused_exactly_by_rule
+        verify_the_remote_time_counts_where_the_cav_gets_nowhere;
     monitor_memory:
         verify_too_little_memory_is_refused
         verify_a_route_that_does_not_fit_is_refused
@@ -116,31 +130,33 @@ harnesses! {
         verify_order_is_the_table
         verify_an_input_is_current_up_to_max_age;
     pieces:
-        verify_points_examined_are_points
-        verify_the_start_breaks_rules_of_the_start
+        verify_points_examined_are_a_prefix
+        verify_a_way_is_plainly_within_the_horizon
+        verify_a_trajectory_starts_about_now
+        verify_a_gate_decides_what_is_certain
         verify_gated_tracks_are_tracks;
     plain_distances:
         verify_s_b_is_bounded
         verify_s_cav_is_bounded
-        verify_s_follow_is_at_least_s_cav
+        verify_s_follow_adds_to_s_cav
         verify_s_follow_is_the_sum
         verify_s_follow_is_exact_where_doubles_are
-        verify_s_follow_is_bounded
-        verify_s_follow_is_s_cav_at_equal_speeds
         verify_s_valid_has_two_cases
-        verify_s_stop_is_bounded;
+        verify_the_way_until_tau_is_bounded
+        verify_s_stop_is_the_sum;
     quality_of_service:
         verify_latency_is_exact
         verify_silence_is_exact
         verify_arrivals_take_an_element;
     requester:
         verify_requester_starts_valid
+        verify_a_time_below_0_is_refused
+        verify_a_hold_is_never_shortened
         verify_a_station_below_1_is_refused
         verify_every_law_at_ticks
         verify_every_law_at_withdrawals
         verify_every_law_at_offers
         verify_a_session_left_is_released_at_offers
-        verify_a_refused_offer_changes_nothing
         verify_an_error_is_told_as_unsafe
         verify_an_offer_is_taken_or_leaves_no_trace
         verify_the_station_asked_last_waits;

@@ -11,8 +11,8 @@ pub(crate) struct Times<N> {
     a_b: N,
     a_max: N,
     tau: N,
-    v_tau: N,
-    s_tau: N,
+    pub(crate) v_tau: N,
+    pub(crate) s_tau: N,
     /// `s_stop`
     pub(crate) s_stop: N,
     /// T

@@ -67,7 +67,7 @@ impl Bitmap<'_> {
 
     /// `WHOLE` bits from this one on, in a word whose other bits are not set; beyond the end of the
     /// bitmap none are.
-    fn bits_from(&self, bit: i64) -> Option<u64> {
+    pub(crate) fn bits_from(&self, bit: i64) -> Option<u64> {
         let rest = self.bits.get(usize::try_from(bit >> 3).ok()?..)?;
         let word = rest.first_chunk().copied().unwrap_or_else(|| {
             let mut bytes = [0; 8];

@@ -192,14 +192,12 @@ fn nothing_depends_on_the_platform_or_on_earlier_calls() {
         assert!(line.contains("libm::"), "{line}");
     }
     // The feature for the proofs adds functions and changes none; `arbitrary` is set by the proofs
-    // alone, which take any answer of `exact` and `rounding` for one.
+    // alone, which take any answer of `exact` for one.
     let platform = uses(&["cfg", "asm", "core_arch", "mul_add", "algebraic"]);
     let for_proofs = [
         r#"lib.rs: #[cfg(feature = "parts")]"#,
         r#"numbers/mod.rs: #[cfg(not(arbitrary = "exact"))]"#,
         r#"numbers/mod.rs: #[cfg(arbitrary = "exact")]"#,
-        r#"numbers/mod.rs: #[cfg(not(arbitrary = "rounding"))]"#,
-        r#"numbers/mod.rs: #[cfg(arbitrary = "rounding")]"#,
     ];
     assert_eq!(platform, for_proofs);
     assert_eq!(uses(&["Cell", "OnceCell", "AtomicBool", "AtomicU64", "AtomicUsize"]), [""; 0]);
