@@ -209,8 +209,12 @@ impl Monitor<'_> {
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
-            let report = check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
-            if_kept(&report, [true, tracks_fit])?;
+            let indexes = Indexes { route, detections: &[] };
+            if tracks_fit {
+                return check_with(&cycle, &indexes, scratch);
+            }
+            let report = check_with(&cycle, &indexes, scratch);
+            if_kept(&report, [true, false])?;
             return report;
         };
         let holds = self.history.holds(&list);

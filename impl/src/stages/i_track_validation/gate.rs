@@ -43,10 +43,9 @@ impl Gate {
     /// The same of a square of a distance.
     pub(crate) fn decides(&self, away: f64) -> Option<bool> {
         let [relative, absolute] = self.open;
-        let error = self.farthest * relative + absolute;
-        if away > self.farthest + error {
+        if away > self.farthest * (1.0 + relative) + absolute {
             Some(false)
-        } else if away < self.farthest - error {
+        } else if away < self.farthest * (1.0 - relative) - absolute {
             Some(true)
         } else {
             None
