@@ -317,7 +317,7 @@ def check_settings(settings):
              *(times[key] for key in TIMES))
     refused = [
         times["dt_max_ns"] <= period_ns,
-        period_ns < 0,
+        period_ns <= 0,
         any(0 < it < MS for it in short),
         0 < times["t_wait_ns"] < S,
         parameters["max_age_ns"] < times["l_max_ns"],
@@ -325,6 +325,7 @@ def check_settings(settings):
         not 0 <= last < I64_MAX,
         stall is not None and not (0 <= stall["way"] < math.inf and stall["time_ns"] >= S),
         settings["memory"]["tracks"] == 0,
+        settings["profile"] == "hardened" and settings["memory"]["detections"] == 0,
         len(cross_sections) > settings["memory"]["cross_sections"]]
     if any(refused):
         raise Invalid

@@ -7,9 +7,7 @@ use core::cmp::Ordering;
 
 use crate::hardened::h07_start;
 use crate::hardened::h14_fail_safe::times::Times;
-use crate::input::cycle::{
-    Cycle, DetectionList, Grid, Lead, Route, Track, TrackList, Trajectory, TrajectoryPoint,
-};
+use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, Route, TrackList, Trajectory};
 use crate::input::domain::route::check_route;
 use crate::input::domain::{
     CheckedBefore, check_detections, check_grid, check_lead, check_tracks, check_trajectory,
@@ -21,8 +19,7 @@ use crate::numbers::time::elapsed_ns;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
 use crate::stages::distances;
 use crate::stages::horizon;
-use crate::stages::i_track_validation::gate::{self, Gate};
-use crate::stages::i_track_validation::places::Places;
+use crate::stages::i_track_validation::gate;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 
 /// `s_b(v)` in plain doubles, m. Source: `spec/3-stages.md#distances`.
@@ -175,9 +172,7 @@ pub fn plainly_within(arc: f64, horizon: [f64; 2]) -> Option<bool> {
 /// How many of three points are examined, by whether the second and the third are within the horizon. Source:
 /// `spec/3-stages.md#distances`.
 pub fn points_examined(is_within: [Option<bool>; 2]) -> Option<usize> {
-    let nowhere = TrajectoryPoint { t_ns: 0, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
-    let mut answers = is_within.into_iter();
-    horizon::prefix(&[nowhere; 3], |_, _| answers.next().flatten())
+    horizon::prefix(is_within.into_iter())
 }
 
 /// Whether a trajectory whose first point has this time starts about now. Source: `spec/hardened/H-07.md`, H-07.
@@ -185,32 +180,10 @@ pub fn starts_in_time(t_ns: i64, now_ns: i64, max_age_ns: i64) -> bool {
     h07_start::is_in_time(elapsed_ns(t_ns, now_ns), max_age_ns)
 }
 
-/// Whether a track is gated whose squared distance is this, the farthest detection's being the other; `None`: plain
-/// doubles cannot tell. `ahead_ns`: for how long tracks move. Source: `spec/3-stages.md#stage-i-track-validation`.
-pub fn gate_decides(away: f64, farthest: f64, ahead_ns: i64) -> Option<bool> {
-    let tracks = TrackList { stamp_ns: 0, items: &[] };
-    let places = Places::at(&tracks, ahead_ns);
-    let mut gate = Gate::new([0.0; 2], &places);
-    gate.farthest = farthest;
-    gate.decides(away)
-}
-
 /// Of three tracks, the indices of the first two gated ones. Source: `spec/3-stages.md#stage-i-track-validation`.
 pub fn gated_tracks(is_gated: [bool; 3]) -> [Option<u16>; 2] {
-    let nobody = Track {
-        id: 1,
-        x: 0.0,
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        vx: 0.0,
-        vy: 0.0,
-        length: 1.0,
-        width: 1.0,
-    };
     let mut rows = [Row::default(); 2];
-    let mut answers = is_gated.into_iter();
-    let listed = gate::list(&[nobody; 3], &mut rows, |_, _| answers.next().unwrap_or(false));
+    let listed = gate::list(is_gated.into_iter(), &mut rows);
     let [first, second] = rows.map(|row| row.track);
     [(listed > 0).then_some(first), (listed > 1).then_some(second)]
 }

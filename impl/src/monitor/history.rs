@@ -133,19 +133,17 @@ impl<'a> History<'a> {
 
 /// The places of the usable lists whose ages are nearest to those wanted, of two the younger.
 pub(crate) fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64) -> [Option<usize>; 3] {
-    let mut found = WANTED_NS.map(|wanted_ns| (wanted_ns.saturating_mul(2), u64::MAX, None));
+    let mut found = WANTED_NS.map(|wanted_ns| (wanted_ns, (u64::MAX, 0), None));
     for (at, kept) in kept.iter().enumerate() {
         let Some(kept) = kept else { continue };
         let age_ns = elapsed_ns(kept.stamp_ns, stamp_ns);
         if !(LEAST_NS..=LONGEST_NS).contains(&age_ns) {
             continue;
         }
-        // Doubled, and older by one: of two that are as near, the younger is nearer. No two have one age.
-        let twice_ns = age_ns.wrapping_mul(2).wrapping_add(1);
-        for (wanted_twice_ns, nearest_ns, place) in &mut found {
-            let distance_ns = twice_ns.abs_diff(*wanted_twice_ns);
-            if distance_ns < *nearest_ns {
-                (*nearest_ns, *place) = (distance_ns, Some(at));
+        for (wanted_ns, nearest, place) in &mut found {
+            let offered = (age_ns.abs_diff(*wanted_ns), age_ns);
+            if offered < *nearest {
+                (*nearest, *place) = (offered, Some(at));
             }
         }
     }

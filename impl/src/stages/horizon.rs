@@ -50,13 +50,10 @@ pub(crate) fn points_examined<'a>(
 
 /// How many points are examined: the first, and those after it up to one that is not within s; `None` where that is
 /// open.
-pub(crate) fn prefix(
-    points: &[TrajectoryPoint],
-    mut is_within: impl FnMut(&TrajectoryPoint, &TrajectoryPoint) -> Option<bool>,
-) -> Option<usize> {
+pub(crate) fn prefix(are_within: impl Iterator<Item = Option<bool>>) -> Option<usize> {
     let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        if !is_within(a, b)? {
+    for is_within in are_within {
+        if !is_within? {
             break;
         }
         count = count.saturating_add(1);
@@ -64,23 +61,28 @@ pub(crate) fn prefix(
     Some(count)
 }
 
+/// Each point but the last, and the next one.
+fn steps(points: &[TrajectoryPoint]) -> impl Iterator<Item = (&TrajectoryPoint, &TrajectoryPoint)> {
+    points.iter().zip(points.iter().skip(1))
+}
+
 fn examined(points: &[TrajectoryPoint], s: Real) -> usize {
     let mut arc = Real::ZERO;
-    let count = prefix(points, |a, b| {
+    let count = prefix(steps(points).map(|(a, b)| {
         arc = arc + distance([a.x, a.y], [b.x, b.y]);
         Some(arc.possibly_at_most(s))
-    });
+    }));
     count.unwrap_or(points.len())
 }
 
 /// The same in plain doubles, unless they cannot tell: stage iii of W1 takes a sixth of the instructions so.
 fn plainly_examined(points: &[TrajectoryPoint], s: [f64; 2]) -> Option<usize> {
     let mut arc = 0.0;
-    prefix(points, |a, b| {
+    prefix(steps(points).map(|(a, b)| {
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         arc += libm::sqrt(dx * dx + dy * dy);
         plainly_within(arc, s)
-    })
+    }))
 }
 
 /// Whether a way is within s. A step errs by less than 2^-50 of its size and 1e-150 m (squares may underflow), a sum

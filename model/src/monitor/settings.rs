@@ -4,6 +4,7 @@ use crate::input::cycle::Route;
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
+use crate::monitor::history;
 use crate::numbers::real::Real;
 use crate::offloading::requester;
 use crate::report::InvalidInput;
@@ -74,6 +75,8 @@ impl Settings {
             asked(time_ns >= SECOND, "stall.time_ns", "must be 1 s or more")?;
         }
         asked(memory.tracks > 0, "memory.tracks", "must have a place for a track")?;
+        let has_place = !history::is_kept(self.profile) || memory.detections > 0;
+        asked(has_place, "memory.detections", "must have a place for a detection")?;
         let has_places = fits(&route.cross_sections, memory.cross_sections);
         asked(has_places, "route.stations", "are more than the memory has places for")
     }
@@ -89,7 +92,7 @@ impl Settings {
 
     fn check_times(&self) -> Result<(), InvalidInput> {
         let Self { parameters, requester, period_ns, .. } = self;
-        asked(*period_ns >= 0, "period_ns", "must be 0 ns or more")?;
+        asked(*period_ns > 0, "period_ns", "must be above 0 ns")?;
         // [MON-24]
         let times = [
             ("period_ns", *period_ns),

@@ -133,7 +133,6 @@ harnesses! {
         verify_points_examined_are_a_prefix
         verify_a_way_is_plainly_within_the_horizon
         verify_a_trajectory_starts_about_now
-        verify_a_gate_decides_what_is_certain
         verify_gated_tracks_are_tracks;
     plain_distances:
         verify_s_b_is_bounded

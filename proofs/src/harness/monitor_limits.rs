@@ -17,7 +17,7 @@ use super::any::{
 use crate::kani;
 
 /// In the hardened profile `brake_by` is `tau` after the cycle: the double `tau` times 10^9 rounded down, so never later
-/// than that, and less than 1 ns sooner; where 64 bits end it saturates. Of two cycles the later one does not have the
+/// than that, nor sooner by 1 ns or more; where 64 bits end it saturates. Of two cycles the later one does not have the
 /// earlier one. In the paper profile there is none [MON-40, MON-41].
 ///
 /// Domain: each `tau` of the domain (0 to 60 s), all times of 64 bits, both profiles. Not covered: what control does by

@@ -1,10 +1,8 @@
 //! Pieces of stages, a comparison or a count each (`spec/3-stages.md`).
 
-use core::cmp::Ordering;
+use mufasa::parts::{gated_tracks, plainly_within, points_examined, starts_in_time};
 
-use mufasa::parts::{gate_decides, gated_tracks, plainly_within, points_examined, starts_in_time};
-
-use super::any::{below, integer_within, near, near_integer, time_ns};
+use super::any::{below, integer_within, near, time_ns};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -57,27 +55,6 @@ pub fn verify_a_trajectory_starts_about_now() {
     assert!(found == (-limit_ns <= away_ns && away_ns <= limit_ns));
     kani::cover!(found && away_ns == limit_ns, "as old as it may be");
     kani::cover!(!found && away_ns < 0, "ahead");
-}
-
-/// Stage i: a track is gated by plain doubles only when it is nearer than the farthest detection, and left out only when it
-/// is farther; of a NaN they cannot tell.
-///
-/// Domain: all squared distances from 0, NaN among them, tracks that have moved or not. Not covered: how much plain doubles
-/// err.
-#[cfg_attr(kani, kani::proof)]
-pub fn verify_a_gate_decides_what_is_certain() {
-    let (away, farthest) = (near(0.0, 8.0), near(0.0, 8.0));
-    kani::assume(!(away < 0.0 || farthest < 0.0));
-    let found = gate_decides(away, farthest, near_integer(0, 1));
-    let order = away.partial_cmp(&farthest);
-    assert!(match found {
-        Some(true) => order == Some(Ordering::Less),
-        Some(false) => order == Some(Ordering::Greater),
-        None => true,
-    });
-    kani::cover!(found == Some(true), "gated");
-    kani::cover!(found == Some(false), "left out");
-    kani::cover!(found.is_none() && order == Some(Ordering::Less), "open");
 }
 
 /// Stage i: the gated tracks are listed once each and in the order of the list.

@@ -66,7 +66,7 @@ pub fn verify_s_follow_adds_to_s_cav() {
 /// `s_follow` in plain doubles is that of `s_b(v_now)`, `s_b(v_lead)` and `s_CAV`, bit by bit.
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: how far it is from that of
-/// real numbers, which Gappa bounds.
+/// real numbers.
 pub fn verify_s_follow_is_the_sum() {
     let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
     let ways = [v_now, v_lead].map(|v| s_b(&parameters, v));

@@ -3,7 +3,7 @@
 
 use core::cmp::Ordering;
 
-use crate::input::cycle::{Detection, Track};
+use crate::input::cycle::Detection;
 use crate::input::scratch::{Row, short};
 use crate::numbers::exact::{compare_distances, compare_moved_distances};
 use crate::stages::i_track_validation::places::Places;
@@ -18,7 +18,7 @@ const MOVED: [f64; 2] = [2e-8, 2e-8];
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gate {
     p: [f64; 2],
-    pub(crate) farthest: f64,
+    farthest: f64,
     /// What is open of a square of a distance: a part of it, and m^2.
     open: [f64; 2],
 }
@@ -37,11 +37,7 @@ impl Gate {
 
     /// Whether a track here is gated; `None` when it is as far as the farthest detection, or almost.
     pub(crate) fn admits(&self, track: [f64; 2]) -> Option<bool> {
-        self.decides(apart_squared(self.p, track))
-    }
-
-    /// The same of a square of a distance.
-    pub(crate) fn decides(&self, away: f64) -> Option<bool> {
+        let away = apart_squared(self.p, track);
         let [relative, absolute] = self.open;
         if away > self.farthest * (1.0 + relative) + absolute {
             Some(false)
@@ -84,20 +80,19 @@ pub(crate) fn gated_tracks(
         });
         order.is_some_and(|order| order != Ordering::Greater)
     };
-    list(places.tracks, rows, |index, track| {
-        gate.admits(places.of(track)).unwrap_or_else(|| exactly(index))
-    })
+    let are_gated = places
+        .tracks
+        .iter()
+        .enumerate()
+        .map(|(index, track)| gate.admits(places.of(track)).unwrap_or_else(|| exactly(index)));
+    list(are_gated, rows)
 }
 
 /// Writes the indices of those that are gated into the rows, and returns how many.
-pub(crate) fn list(
-    tracks: &[Track],
-    rows: &mut [Row],
-    mut is_gated: impl FnMut(usize, &Track) -> bool,
-) -> usize {
+pub(crate) fn list(are_gated: impl Iterator<Item = bool>, rows: &mut [Row]) -> usize {
     let mut gated = 0_usize;
-    for (index, track) in tracks.iter().enumerate() {
-        if let (true, Some(row)) = (is_gated(index, track), rows.get_mut(gated)) {
+    for (index, is_gated) in are_gated.enumerate() {
+        if let (true, Some(row)) = (is_gated, rows.get_mut(gated)) {
             row.track = short(index);
             gated = gated.saturating_add(1);
         }

@@ -54,7 +54,10 @@ pub fn at_a_bound(draw: &mut Draw<'_>, settings: &mut Settings) {
             let way = draw.pick(&[0.0, -0.0, f64::from_bits(1), -f64::from_bits(1)]);
             settings.stall = Some(Stall { way, time_ns: draw.near_ns(1_000 * MS) });
         }
-        10 => settings.memory.tracks = draw.pick(&[1, 0]),
+        10 => {
+            let places = draw.pick(&[(1, 1), (0, 1), (1, 0)]);
+            (settings.memory.tracks, settings.memory.detections) = places;
+        }
         _ => settings.memory.cross_sections = draw.pick(&[3, 2]),
     }
 }
