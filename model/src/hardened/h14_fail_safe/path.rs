@@ -108,7 +108,7 @@ fn pieces(scene: &Scene, trajectory: &[Point]) -> (Vec<Piece>, Frame, Real) {
     (pieces, nodes[nodes.len() - 1].clone(), way)
 }
 
-/// d = min(1/4 m, L).
+/// d_p = min(1/4 m, L).
 fn d(scene: &Scene) -> Real {
     (integer(1) / integer(4)).min(scene.ego.length.clone())
 }
