@@ -6,14 +6,17 @@ period between microseconds: sequences with these are left out, and counted."""
 from __future__ import annotations
 
 import json
+import subprocess
 from collections import Counter
 from datetime import timedelta
-from typing import Any
+from pathlib import Path
+from typing import Any, Optional
 
 import mufasa
 import pytest
 from conftest import ROOT
 from mufasa import Detections, Gap, Lead, Monitor, Time, Tracks, Trajectory
+from test_check import program
 from test_monitor import grid_map, ns
 
 MEMORY = {"tracks": 1024, "detections": 2048, "cross_sections": 8192}
@@ -123,27 +126,53 @@ def play(monitor: Monitor, event: dict[str, Any], state: dict[str, Any]) -> None
         assert remote == (state[group] if state[group].startswith("remote") else "local")
 
 
+def played(name: str, record: dict[str, Any], expected: dict[str, Any]) -> Optional[int]:
+    """How many events were played; ``None``: the settings are refused, as they should be."""
+    if "error" in expected:
+        with pytest.raises(mufasa.InvalidInput):
+            started(record)
+        return None
+    monitor = started(record)
+    for at, (event, state) in enumerate(zip(record["events"], expected["states"])):
+        try:
+            play(monitor, event, state)
+        except AssertionError as error:
+            raise AssertionError(f"{name}, event {at}: {error}") from error
+    return len(record["events"])
+
+
 def test_every_sequence_is_answered_as_its_vector_says() -> None:
     count: Counter[str] = Counter()
     for file in sorted((ROOT / "vectors/monitor").glob("*.jsonl")):
         for vector in map(json.loads, file.read_text().splitlines()):
-            record, expected = vector["input"], vector["expect"]
+            record = vector["input"]
             if (why := left_out(record)) is not None:
                 count[f"left out: {why}"] += 1
                 continue
-            # Python refuses a period of 0, as the implementation.
-            if "error" in expected or record["period_ns"] == 0:
-                with pytest.raises(mufasa.InvalidInput):
-                    started(record)
-                count["refused"] += 1
-                continue
-            monitor = started(record)
-            for at, (event, state) in enumerate(zip(record["events"], expected["states"])):
-                try:
-                    play(monitor, event, state)
-                except AssertionError as error:
-                    raise AssertionError(f"{vector['id']}, event {at}: {error}") from error
-                count["events"] += 1
-            count["played"] += 1
+            events = played(vector["id"], record, vector["expect"])
+            count["refused" if events is None else "played"] += 1
+            count["events"] += events or 0
     print(dict(count))
     assert count["played"] >= 120 and count["refused"] >= 10, count
+
+
+def test_random_sequences_are_answered_as_the_model_does(tmp_path: Path) -> None:
+    """Those that ``mufasa conform`` asks, without a ``stall`` and with the memory of Python."""
+    asked = tmp_path / "asked.jsonl"
+    # Whatever is answered to the cases: they are written down.
+    command = [program(), "conform", "-q", "--kinds", "monitor", "--cases", "150", "--no-vectors"]
+    subprocess.run([*command, "--out", tmp_path, "--", "tee", asked], capture_output=True)
+    records = [json.loads(line) for line in asked.read_text().splitlines()]
+    records = [{**it, "stall": None, "memory": MEMORY} for it in records]
+    lines = "".join(json.dumps(it) + "\n" for it in records)
+    model = subprocess.run([program(), "oracle"], input=lines, stdout=-1, text=True, check=True)
+    count: Counter[str] = Counter()
+    for record, line in zip(records, model.stdout.splitlines()):
+        if (why := left_out(record)) is not None:
+            count[f"left out: {why}"] += 1
+            continue
+        events = played(line, record, json.loads(line))
+        count["refused" if events is None else "played"] += 1
+        count["events"] += events or 0
+    print(dict(count))
+    assert count["played"] >= 50 and count["events"] >= 500, count

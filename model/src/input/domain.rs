@@ -199,7 +199,8 @@ fn check_lead(lead: Option<&Lead>, now: i64) -> Result<(), InvalidInput> {
     l.number("speed", lead.speed, &SPEED)
 }
 
-fn check_route(route: &Route) -> Result<(), InvalidInput> {
+/// The first field of a route that is invalid.
+pub fn check_route(route: &Route) -> Result<(), InvalidInput> {
     let list = "route.stations";
     at(list, None).size(route.cross_sections.len(), 2, CROSS_SECTIONS)?;
     let mut previous: Option<&CrossSection> = None;

@@ -75,7 +75,7 @@ struct Done {
 }
 
 impl Monitor {
-    /// Everything local. `Err` names the first setting that is refused, or a route that does not fit.
+    /// Everything local. `Err` names the first setting that is refused, or a route that is invalid or does not fit.
     /// `spec/monitor.md`, settings and memory.
     pub fn new(settings: Settings, route: Route, reading: Reading) -> Result<Self, InvalidInput> {
         settings.check(&route)?;

@@ -1,7 +1,7 @@
 //! What a monitor is started with, and what is refused (`spec/monitor.md`, settings and memory).
 
 use crate::input::cycle::Route;
-use crate::input::domain::check_parameters;
+use crate::input::domain::{check_parameters, check_route};
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
 use crate::monitor::history;
@@ -77,6 +77,7 @@ impl Settings {
         asked(memory.tracks > 0, "memory.tracks", "must have a place for a track")?;
         let has_place = !history::is_kept(self.profile) || memory.detections > 0;
         asked(has_place, "memory.detections", "must have a place for a detection")?;
+        check_route(route)?;
         let has_places = fits(&route.cross_sections, memory.cross_sections);
         asked(has_places, "route.stations", "are more than the memory has places for")
     }
