@@ -8,7 +8,7 @@ use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Reading, Rule, St
 use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
 
 use crate::base::*;
-use crate::near::{NEAR_SAFE, NO, YES, points, safe};
+use crate::near::{NEAR_SAFE, NEAR_UNSAFE, YES, points, safe};
 
 /// 2000 detections, as many in the reference list and `others` in another one: H-14 needs 2000 * 2000
 /// (2000 + others + 32 places + 51 points) comparisons and (32 + 2 * 2000 * 2000) * 2 with the route, the rest
@@ -93,12 +93,13 @@ fn more_than_1024_close_objects_fail_the_strict_reading() {
         let mut behind = parked(stage, [25, 41], [4.005, 0.0]);
         points(&mut behind)[24].x = -0.001;
         assert_eq!(safe(&behind), YES);
-        // A collision at the last point with the last object decides.
-        let mut collision = parked(stage, [25, 41], [4.005, 0.0]);
-        collision.tracks.iter_mut().for_each(|list| list.items[40].x = 4.0);
-        collision.detections.iter_mut().for_each(|list| list.items[40].x = 4.0);
-        assert_eq!(safe(&collision)[..2], NO[..2]);
-        assert_eq!(strict_witness(&collision, stage).map(|it| it.rule), Some(Rule::Collision));
+        // A collision at the last point decides, where the sides of the CAV are longer by 8e-7 m.
+        let mut collision = parked(stage, [25, 42], [4.005, 0.0]);
+        collision.tracks.iter_mut().for_each(|list| list.items[41].x = 4.000_001_5);
+        collision.detections.iter_mut().for_each(|list| list.items[41].x = 4.000_001_5);
+        points(&mut collision)[24].cos = 1.000_000_4;
+        let witness = strict_witness(&collision, stage).expect("a failure");
+        assert_eq!((witness.rule, witness.point), (Rule::Collision, Some(24)));
     }
 }
 
@@ -143,24 +144,26 @@ fn more_than_1024_close_motions_fail_the_strict_reading() {
         too_many_close(&beside(11.5, 25, 2.005, vx), Stage::Iv);
         assert_eq!(safe(&beside(11.5, 25, 2.011, vx)), YES, "{vx}");
         let mut meeting = beside(11.5, 25, 2.005, vx);
-        meeting.tracks.as_mut().expect("a list").items.push(track(25, 9.0, 0.0));
-        assert_eq!(safe(&meeting), NO);
-        let rule = strict_witness(&meeting, Stage::Iv).map(|it| it.rule);
-        assert_eq!(rule, Some(Rule::FailSafe));
+        // What the CAV meets at the last place decides, 9.8675 m ahead; the lax model has none there.
+        meeting.tracks.as_mut().expect("a list").items.push(track(25, 13.8, 0.0));
+        assert_eq!(safe(&meeting), NEAR_UNSAFE);
+        let witness = strict_witness(&meeting, Stage::Iv).expect("a failure");
+        assert_eq!((witness.rule, witness.point), (Rule::FailSafe, Some(51 + 40)));
     }
 }
 
-/// 25 fast followers run over the CAV at all 41 places, by more than 1 cm: none of them is close.
+/// 25 fast followers, which are not examined, run over the CAV at all 41 places: by more than 1 cm, by less.
 /// H-14.54.
 #[test]
 fn who_surely_sweeps_over_the_cav_is_not_close() {
-    let with = |x: f64| {
-        let mut cycle = beside(11.5, 25, 0.0, 30.0);
-        let items = &mut cycle.tracks.as_mut().expect("a list").items;
-        items.iter_mut().for_each(|it| (it.x, it.length) = (x, 4.0));
+    let with = |y: f64| {
+        let mut cycle = beside(11.5, 25, y, 30.0);
+        cycle.tracks.iter_mut().flat_map(|list| &mut list.items).for_each(|it| it.x = -52.5);
         cycle
     };
-    assert_eq!(safe(&with(-4.5)), YES);
+    assert_eq!(safe(&with(0.0)), YES);
+    assert_eq!(safe(&with(1.989)), YES);
+    too_many_close(&with(1.991), Stage::Iv);
 }
 
 /// At 8 m/s the CAV may stand from s_b = 4 m on, 1/1 s after now: strictly and exactly its window 1/4 m before ends
