@@ -66,8 +66,11 @@ fn across(sheet: &mut Sheet) {
         pen.rectangle(&inner(&scene, false), "inner");
         for motion in all_motions(&scene) {
             let behind = is_behind(&scene, &scene.reads, &motion);
-            let words =
-                if comes_across(&scene, &scene.reads, &motion, behind) { "comes across" } else { "does not" };
+            let words = if comes_across(&scene, &scene.reads, &motion, behind) {
+                "comes across"
+            } else {
+                "does not"
+            };
             named(pen, &motion, words, 1.4);
         }
     });
