@@ -68,7 +68,8 @@ macro_rules! witness_rules {
             Ambiguous = "ambiguous";
             /// Stage i: mean assignment cost < theta_tr.
             MeanCost = "mean_cost";
-            /// Stages i and iv, strict only: the assignment, or H-14, would take more work than work_limit.
+            /// Strict only. Stages i and iv: the assignment, or H-14, would take more work than work_limit.
+            /// Stages iii and iv: more than 1024 close calls, of LLCC or of H-14.
             WorkLimit = "work_limit";
             /// H-01: fewer pairs closer than theta_track_max than tracks to be matched.
             NoAssignment = "no_assignment";

@@ -1,5 +1,6 @@
 //! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
+pub(crate) mod close;
 pub(crate) mod sweep;
 
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
@@ -7,6 +8,7 @@ use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
+use crate::stages::llcc::close::{ClosePairs, TooMany};
 use crate::stages::llcc::sweep::{MovingRectangle, Sweep};
 
 /// A collision: the point, the object, both as indices, and the distance of the centres with the
@@ -50,10 +52,12 @@ impl<'c, 'a> CavMotion<'c, 'a> {
     }
 
     /// The first collision in the order of points, then objects. Object after object, looking
-    /// only at the points before that of the first collision so far.
+    /// only at the points before that of the first collision so far, and at none once too many pairs are
+    /// close.
     pub(crate) fn first_collision(
         &self,
         objects: impl Iterator<Item = MovingRectangle>,
+        close: &mut ClosePairs,
     ) -> Option<Collision> {
         let mut found: Option<Collision> = None;
         for (object, moving) in objects.enumerate() {
@@ -61,33 +65,60 @@ impl<'c, 'a> CavMotion<'c, 'a> {
                 continue;
             }
             let before = found.map_or(usize::MAX, |found| found.point);
-            let hit = self.collision_with(&moving, before);
+            let hit = self.collision_with(&moving, before, close);
             found = hit.map(|(point, compared)| Collision { point, object, compared }).or(found);
         }
         found
     }
 
     /// The first point with an index below `before` at which the check may find a collision.
-    fn collision_with(&self, object: &MovingRectangle, before: usize) -> Option<(usize, [f64; 2])> {
-        let points = self.points.iter().enumerate().take(before);
-        points.into_iter().find_map(|(index, at)| Some((index, self.collision(at, object)?)))
+    #[inline(never)]
+    fn collision_with(
+        &self,
+        object: &MovingRectangle,
+        before: usize,
+        close: &mut ClosePairs,
+    ) -> Option<(usize, [f64; 2])> {
+        let before = if close.are_too_many() { 0 } else { before };
+        let mut points = self.points.iter().enumerate().take(before);
+        let hit = points.find_map(|(index, at)| {
+            let found = self.collision(at, object, close).transpose()?;
+            Some(found.ok().map(|compared| (index, compared)))
+        });
+        hit.flatten()
     }
 
     /// Whether the check may find a collision at a point.
-    fn collision(&self, at: &TrajectoryPoint, object: &MovingRectangle) -> Option<[f64; 2]> {
-        let dt_ns = elapsed_ns(self.stamp_ns, at.t_ns);
-        let (ego, theta_obj) = (&self.cycle.ego, self.cycle.parameters.theta_obj);
+    ///
+    /// What plain doubles leave open is close (LLCC-03): they take half the lengths for longer by a
+    /// millionth, for directions that are too short or too long, and round, by less than a millimetre
+    /// together; a centimetre more of the CAV's halves is as much along each side.
+    fn collision(
+        &self,
+        at: &TrajectoryPoint,
+        object: &MovingRectangle,
+        close: &mut ClosePairs,
+    ) -> Result<Option<[f64; 2]>, TooMany> {
+        let (seconds, ego) = (seconds(elapsed_ns(self.stamp_ns, at.t_ns)), &self.cycle.ego);
         let cav = MovingRectangle::footprint(ego, at);
-        if cav.certainly_apart(object, seconds(dt_ns))
-            || cav.certainly_far(object, seconds(dt_ns), theta_obj)
+        if cav.certainly_apart(object, seconds)
+            || cav.certainly_far(object, seconds, self.cycle.parameters.theta_obj)
         {
-            return None;
+            return Ok(None);
         }
-        let cav = footprint(ego, &Pose::of(at));
-        let object = object.displaced(vector(object.velocity).times(Real::seconds(dt_ns)));
-        let (apart, theta_obj) = ((object.centre - cav.centre).norm(), Real::new(theta_obj));
-        (apart.possibly_below(theta_obj) && possibly_touch(&cav, &object))
-            .then(|| [apart.value(), theta_obj.value()])
+        close.decide(self.close_collision(at, object))
+    }
+
+    /// The same with error bounds.
+    #[inline(never)]
+    fn close_collision(&self, at: &TrajectoryPoint, object: &MovingRectangle) -> Option<[f64; 2]> {
+        let cav = footprint(&self.cycle.ego, &Pose::of(at));
+        let seconds = Real::seconds(elapsed_ns(self.stamp_ns, at.t_ns));
+        let object = object.displaced(vector(object.velocity).times(seconds));
+        let theta_obj = Real::new(self.cycle.parameters.theta_obj);
+        let apart = (object.centre - cav.centre).norm();
+        let collides = apart.possibly_below(theta_obj) && possibly_touch(&cav, &object);
+        collides.then(|| [apart.value(), theta_obj.value()])
     }
 }
 

@@ -6,6 +6,7 @@
 )]
 
 mod cells;
+mod close;
 mod disputed;
 mod extremes;
 mod history;

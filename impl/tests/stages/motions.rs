@@ -2,7 +2,7 @@
 //! `spec/hardened/H-14.md#requirements-motions`).
 
 use crate::scene::{Scene, detection, scene, track};
-use mufasa::input::cycle::Detection;
+use mufasa::input::cycle::{Detection, Track};
 use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
@@ -67,5 +67,19 @@ fn a_confirmed_track_may_come_from_every_item_near_its_past() {
             let at = (witness.detection, witness.item, witness.age_ns);
             assert_eq!(at, (Some(1), Some(0), Some(500 * MS)));
         }
+    }
+}
+
+/// Products with its velocity are rounded to whole multiples of 5e-324.
+#[test]
+fn who_hardly_moves_stands_in_the_way() {
+    let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
+    scene.ego.width = 2.4;
+    scene.points.truncate(2);
+    let narrow = Track { width: 0.9, vx: 5e-324, ..track(1, 6.0, 1.6) };
+    for y in [1.6, 1.7] {
+        scene.tracks = Some(vec![Track { y, ..narrow }]);
+        let rule = scene.failure_of_iv().map(|witness| witness.rule);
+        assert_eq!(rule, (y < 1.65).then_some(Rule::FailSafe), "{y}");
     }
 }

@@ -90,9 +90,14 @@ impl Scene {
 
     /// Why stage iv fails on its own, if it does.
     pub fn failure_of_iv(&self) -> Option<Witness> {
+        self.failure_of(Stage::Iv)
+    }
+
+    /// Why a stage fails on its own, if it does.
+    pub fn failure_of(&self, stage: Stage) -> Option<Witness> {
         let outcome = self.both_ways(|cycle, indexes, scratch| {
             let valid = ValidCycle::with(cycle, *indexes, scratch).expect("a valid scene");
-            valid.stage(Stage::Iv, scratch)
+            valid.stage(stage, scratch)
         });
         match outcome {
             Outcome::Failed(witness) => Some(witness),

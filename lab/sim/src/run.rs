@@ -21,6 +21,7 @@ pub use crate::settings::{PERIOD_NS, Settings};
 use crate::snapshot::Snapshot;
 use crate::station::Station;
 use crate::time::seconds;
+use crate::vehicle::Command;
 use crate::world::World;
 
 /// Most detections of a list, and cross sections of a route.
@@ -110,6 +111,12 @@ pub trait Watcher {
     /// A cycle was decided.
     fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle);
 
+    /// The CAV took a message that arrived at a time, ns.
+    fn took(&mut self, _: i64, _: &Cav<'_>) {}
+
+    /// Control wants this at a time, ns: in each step of the world.
+    fn commanded(&mut self, _: i64, _: &Cav<'_>, _: Command) {}
+
     /// The run is over; the last cycle was up to a period ago.
     fn ended(&mut self, _: &Snapshot, _: &Cav<'_>) {}
 }
@@ -151,23 +158,28 @@ pub fn simulate(
         while let Some((arrival_ns, to, bytes)) = radio.receive(now_ns) {
             match to {
                 To::Station => station.take(arrival_ns, &bytes, &mut attacker, &mut radio),
-                To::Vehicle => receive(&mut cav, arrival_ns, &bytes, &frame, &attacker, &mut radio),
+                To::Vehicle => {
+                    receive(&mut cav, arrival_ns, &bytes, &frame, &attacker, &mut radio);
+                    watcher.took(arrival_ns, &cav);
+                }
             }
         }
-        if now_ns % PERIOD_NS == 0 {
+        if now_ns % settings.period_ns == 0 {
             attacker.look(now_ns, &truth);
             station.sense(now_ns, &truth, &mut radio);
             cav.sense(now_ns, &truth, &mut radio);
         }
         attacker.forge(now_ns, &frame, &mut radio);
-        if now_ns % PERIOD_NS == DECIDES_NS {
+        if now_ns % settings.period_ns == DECIDES_NS {
             let configuration = cav.guard().configuration();
             if let Some(decided) = cav.decide(now_ns, &truth, &mut radio) {
                 let cycle = outcome.cycle(&world, configuration, &decided, attacker.is_on(now_ns));
                 watcher.cycle(&truth, &cav, &decided, &cycle);
             }
         }
-        world.step(cav.command(now_ns, &truth));
+        let command = cav.command(now_ns, &truth);
+        watcher.commanded(now_ns, &cav, command);
+        world.step(command);
         if let Some(end) = ended(&world) {
             outcome.end = end;
             outcome.t = seconds(world.time_ns());

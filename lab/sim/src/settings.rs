@@ -71,6 +71,8 @@ pub struct Settings {
     pub has_no_lead: bool,
     /// What the stages do not get.
     pub withheld: Option<Withheld>,
+    /// Time between two cycles, ns; `PERIOD_NS` but where a test is about another one.
+    pub period_ns: i64,
     /// From when on the CAV brakes where its monitor, which is told to look (`supervise_local`), says so of its own
     /// plans, s (F-48). Not in `Sofof`.
     pub supervise_local: Option<f64>,
@@ -108,6 +110,7 @@ impl Settings {
             drives_on: false,
             has_no_lead: false,
             withheld: None,
+            period_ns: PERIOD_NS,
             supervise_local: None,
             prechecks: true,
             offers,
@@ -125,7 +128,7 @@ impl Settings {
     /// What the CAV's monitor of a profile is made with. It refuses a `tau` that is not above its period; a run that
     /// was kept from before that is made again with a period that is just below.
     pub(crate) fn monitor(&self, profile: Profile) -> monitor::Settings {
-        let period = Duration::from_nanos(PERIOD_NS.unsigned_abs());
+        let period = Duration::from_nanos(self.period_ns.unsigned_abs());
         let is_above = self.stages.tau > period.as_secs_f64();
         let period = if is_above { period } else { period.saturating_sub(Duration::from_nanos(1)) };
         monitor::Settings {

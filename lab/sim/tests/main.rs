@@ -5,6 +5,7 @@ mod common;
 mod drivers;
 mod experiment;
 mod falsify;
+mod ftti;
 #[path = "loop/mod.rs"]
 mod in_the_loop;
 mod own_plans;

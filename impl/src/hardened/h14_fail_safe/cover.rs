@@ -45,12 +45,16 @@ impl Clock {
 
     /// For how long an object of that speed and age moves on, rounded up.
     pub(super) fn longest(&self, speed: f64, age: f64) -> f64 {
-        let until = larger(self.times.until_stop, self.yields + speed * self.yielding);
-        (age + until) * (1.0 + 1e-9) + 1e-9
+        (age + self.until_yielded(speed)) * (1.0 + 1e-9) + 1e-9
+    }
+
+    /// H(w), as rounded as plain doubles are.
+    pub(super) fn until_yielded(&self, speed: f64) -> f64 {
+        larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
     /// After what time an object that goes on is where it is now when it brakes, rounded down.
-    fn braked(&self, speed: f64, seconds: f64) -> f64 {
+    pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
         let left = larger(speed - self.a_b * seconds, 0.0);
         if speed > 1e-3 { (speed - left * left / speed) * self.braking - 1e-9 } else { 0.0 }
     }
@@ -167,21 +171,21 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Whether the strip that it sweeps over with this velocity certainly misses the box. Without it stage
-    /// iv of W2 takes half as many instructions more.
+    /// Whether the strip that it sweeps over with this velocity certainly misses the box; products with a
+    /// tiny velocity underflow. Without it stage iv of W2 takes half as many instructions more.
     #[inline]
     pub(super) fn is_passed(&self, velocity: [f64; 2]) -> bool {
         let ([a, b], [half_a, half_b]) = (self.from, self.half);
         let [va, vb] = split(self.axis, velocity);
         let ([along, across], [length, width]) = (self.direction, self.size);
         let aside = (va * across - vb * along).abs() * length;
-        let reach = va.abs() * half_b + vb.abs() * half_a + aside;
+        let reach = va.abs() * half_b + vb.abs() * half_a + aside + f64::MIN_POSITIVE;
         (va * b - vb * a).abs() > reach + (va * along + vb * across).abs() * width
     }
 }
 
 /// The CAV's rectangle, its reference point at the origin.
-fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
+pub(super) fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
     MovingRectangle {
         centre: [ego.center_offset * cos, ego.center_offset * sin],
         direction: [cos, sin],

@@ -1,12 +1,14 @@
 //! Whether an object meets the CAV (`spec/hardened/H-14.md#requirements-the-cav`, `#requirements-not-examined`, `#requirements-failure`).
 //!
-//! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
-//! error bounds; that an object comes across the CAV, follows it or keeps beside it only when it is sure.
+//! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, by
+//! `spot` unless it is close, else with error bounds; that an object comes across the CAV, follows it or keeps
+//! beside it only when it is sure.
 
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
+use crate::hardened::h14_fail_safe::spot::Spot;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -14,6 +16,7 @@ use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept, possib
 use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::llcc::close::{ClosePairs, TooMany};
 use crate::stages::llcc::sweep::{MovingRectangle, minus};
 use crate::stages::llcc::{Pose, footprint, vector};
 
@@ -37,6 +40,8 @@ pub(super) struct Meeting<'c, 'a> {
     route: IndexedRoute<'c, 'a>,
     /// Once they are needed.
     places: Option<Places<'c, 'a>>,
+    /// Places and motions.
+    pub(super) close: ClosePairs,
 }
 
 impl<'c, 'a> Meeting<'c, 'a> {
@@ -50,7 +55,17 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
         let covers = Covers::new(&ego, nodes, &clock.times);
-        Self { nodes, trajectory, ego, aside, clock, covers, route, places: None }
+        Self {
+            nodes,
+            trajectory,
+            ego,
+            aside,
+            clock,
+            covers,
+            route,
+            places: None,
+            close: ClosePairs::default(),
+        }
     }
 
     const fn cycle(&self) -> &'c Cycle<'a> {
@@ -103,10 +118,12 @@ impl<'c, 'a> Meeting<'c, 'a> {
         !self.covers.miss(&self.plainly(motion), &self.clock)
     }
 
-    /// The first place before that with a number where the object may meet the CAV, if it is examined.
+    /// The first place where the object may meet the CAV, if that is before the place with that number, and
+    /// the object is examined. Until then each place counts that is close, so that their number does not
+    /// depend on what was found before.
     pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
         let (object, exact) = (self.plainly(motion), Exact::new(self.cycle(), motion));
-        let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
+        let Self { nodes, trajectory, ego, aside, clock, covers, route, places, close } = self;
         let places = places.get_or_insert_with(|| {
             let path = Path::new(*nodes);
             let points = trajectory.len();
@@ -114,9 +131,10 @@ impl<'c, 'a> Meeting<'c, 'a> {
             Places { path, points, ego: *ego, starts, beside }
         });
         let boxes = (&*covers, &*clock);
-        let met = places.first(&object, before, boxes, |place| places.meets(place, &exact));
-        met.filter(|met| met.number < before)
-            .filter(|_| !places.is_exempt((&object, &exact), boxes))
+        let meets =
+            |place: &Place| places.meets(place, (&object, &exact), clock, close).transpose();
+        let met = places.first(&object, boxes, meets)?.ok()?;
+        (met.number < before && !places.is_exempt((&object, &exact), boxes)).then_some(met)
     }
 }
 
@@ -148,14 +166,12 @@ impl<'c, 'a> Places<'c, 'a> {
         self.path.nodes.cycle
     }
 
-    /// What is found at the first place where something is, of those where the object may meet the CAV; few
-    /// of them are behind the place with that number.
+    /// What is found at the first place where something is, of those where the object may meet the CAV.
     fn first<T>(
         &self,
         object: &Object,
-        before: i64,
         (covers, clock): (&Covers, &Clock),
-        find: impl Fn(&Place) -> Option<T>,
+        mut find: impl FnMut(&Place) -> Option<T>,
     ) -> Option<T> {
         let mut done = 0;
         self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
@@ -165,11 +181,10 @@ impl<'c, 'a> Places<'c, 'a> {
             }
             let from = first.max(done);
             done = last.saturating_add(1);
-            let pieces =
-                start.clone()?.take(done.saturating_sub(first)).skip(from.saturating_sub(first));
-            pieces.take_while(|piece| piece.first < before).find_map(|piece| {
+            let pieces = start.clone()?.take(done.saturating_sub(first));
+            pieces.skip(from.saturating_sub(first)).find_map(|piece| {
                 let misses = |run| self.run(&piece, run, clock).misses(object, clock);
-                piece.first_place(misses, &find)
+                piece.first_place(misses, &mut find)
             })
         })
     }
@@ -185,9 +200,24 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 
     /// Whether the object may sweep over a point of the CAV's rectangle in the window of the place.
-    fn meets(&self, place: &Place, object: &Exact) -> Option<Met> {
-        let (cycle, times) = (self.cycle(), &self.path.times);
+    fn meets(
+        &self,
+        place: &Place,
+        (plain, object): (&Object, &Exact),
+        clock: &Clock,
+        close: &mut ClosePairs,
+    ) -> Result<Option<Met>, TooMany> {
+        let times = &self.path.times;
         let passes = place.after.filter(|after| after.certainly_below(times.s_b));
+        let end = match passes {
+            Some(after) => times.plainly_last(after),
+            None if object.comes_across => times.until_stop.value(),
+            None => clock.until_yielded(plain.speed),
+        };
+        let window = [times.plainly_first(place.before), end];
+        if Spot::new(&self.ego, place).is_missed(plain, window, clock) {
+            return Ok(None);
+        }
         let start = times.first(place.before);
         let end = match passes {
             Some(after) => times.last(after),
@@ -195,10 +225,10 @@ impl<'c, 'a> Places<'c, 'a> {
             None => self.until_yielded(object.speed),
         };
         let cav = footprint(&self.ego, &place.pose);
-        let number = place.number;
+        let meets = object.possibly_sweeps(&cav, start, end, self.cycle().parameters.a_b);
         let ways = [place.way, times.s_stop].map(Real::value);
-        let met = || Met { number, point: place.point(self.points), ways };
-        object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
+        let (number, point) = (place.number, place.point(self.points));
+        close.decide(meets.then_some(Met { number, point, ways }))
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
@@ -221,11 +251,14 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 
     /// Whether an object may share a point with the CAV at some place, where it is now; `plainly`: the same
-    /// for boxes.
+    /// in plain doubles.
     fn may_lie_across(&self, now: &Rectangle, plainly: &Object, boxes: (&Covers, &Clock)) -> bool {
-        let touches =
-            |place: &Place| possibly_touch(&footprint(&self.ego, &place.pose), now).then_some(());
-        self.first(plainly, i64::MAX, boxes, touches).is_some()
+        let touches = |place: &Place| {
+            let is_clear = Spot::new(&self.ego, place).is_clear_of(&plainly.at);
+            let exactly = || !possibly_touch(&footprint(&self.ego, &place.pose), now);
+            (!is_clear.unwrap_or_else(exactly)).then_some(())
+        };
+        self.first(plainly, boxes, touches).is_some()
     }
 
     /// H(w) = max(T, tau + `t_yield` + abs(w) / (2 `a_yield`)), s.

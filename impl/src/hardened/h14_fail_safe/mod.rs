@@ -9,6 +9,7 @@ mod motions;
 mod nearest;
 pub(crate) mod path;
 pub(crate) mod reach;
+mod spot;
 pub(crate) mod times;
 
 use crate::hardened::detection_history::disputed::Disputes;
@@ -73,7 +74,7 @@ impl FailSafe<'_, '_> {
         if let Some(list) = detections {
             motions.detections(list, age(list.stamp_ns), tracks, scratch);
         }
-        motions.first.map(|found| found.witness)
+        motions.meeting.close.failure().or_else(|| motions.first.map(|found| found.witness))
     }
 
     /// (Places + points) times tracks, plus detections times items of the longest usable list times (items

@@ -2,6 +2,8 @@
 //! in plain doubles.
 
 use crate::input::cycle::Cycle;
+use crate::numbers::range::larger;
+use crate::numbers::rounding::Real;
 use crate::stages::distances::{Number, s_b};
 
 /// What the CAV can do from now on; m, s, m/s.
@@ -65,6 +67,33 @@ impl<N: Number> Times<N> {
         let squared = self.v.times(self.v).minus(double(self.a_b).times(f)).minus(self.rough);
         let left = squared.or_larger(N::from_double(0.0)).root();
         self.v.minus(left).divided_by(self.a_b)
+    }
+}
+
+impl Times<Real> {
+    /// `first` in plain doubles, which err by less than 1e-14 of T, and 1e-6 s: what is left of the way is
+    /// rounded once.
+    pub(super) fn plainly_first(&self, f: Real) -> f64 {
+        /// m; takes less than 1e-6 s.
+        const NOTHING: f64 = 1e-15;
+        let [v, a_max, way] = [self.v, self.a_max, f].map(Real::value);
+        if way > self.s_tau.value() {
+            self.until_stop.value() - self.plainly_stops(self.s_stop - f)
+        } else if way > NOTHING {
+            way / (0.5 * (libm::sqrt(v * v + 2.0 * a_max * way) + v))
+        } else {
+            0.0
+        }
+    }
+
+    /// `last` in plain doubles, as exactly.
+    pub(super) fn plainly_last(&self, f: Real) -> f64 {
+        self.v.value() / self.a_b.value() - self.plainly_stops(self.s_b - f)
+    }
+
+    /// How long braking to a stop takes on so many m, s.
+    fn plainly_stops(&self, way: Real) -> f64 {
+        libm::sqrt(2.0 * larger(way.value(), 0.0) / self.a_b.value())
     }
 }
 

@@ -49,7 +49,7 @@ impl MovingRectangle {
     }
 
     /// Where the centre is after a time in s.
-    fn after(&self, seconds: f64) -> [f64; 2] {
+    pub(crate) fn after(&self, seconds: f64) -> [f64; 2] {
         let ([x, y], [vx, vy]) = (self.centre, self.velocity);
         [x + vx * seconds, y + vy * seconds]
     }

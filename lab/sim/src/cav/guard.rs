@@ -117,7 +117,8 @@ impl<'a> Guard<'a> {
         self.requester().state(group)
     }
 
-    fn requester(&self) -> &Requester<'a> {
+    /// The requester: for who looks on.
+    pub fn requester(&self) -> &Requester<'a> {
         match &self.kind {
             Kind::Plain(requester) => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),

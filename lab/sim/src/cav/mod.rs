@@ -291,6 +291,11 @@ impl<'a> Cav<'a> {
         self.controller.command(&ego, if drives_on { &self.points } else { &[] }, now_ns)
     }
 
+    /// By when control brakes along what it follows, ns; none: it follows a plan of its own that no cycle covers.
+    pub fn brake_by_ns(&self) -> Option<i64> {
+        self.brake_by_ns
+    }
+
     /// Whether the CAV's own planner is the source of its trajectories.
     fn is_own(&self) -> bool {
         !matches!(self.guard.state(Group::Plan), GroupState::Remote { .. })
