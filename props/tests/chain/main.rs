@@ -51,11 +51,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         Cell::Vector,
         "docs/exactness.md names a test of each",
     ),
-    (
-        "spec/4-arithmetic.md#strict-and-lax",
-        Cell::Vector,
-        "every expected answer has both verdicts",
-    ),
     ("spec/5-interfaces.md#cycle", Cell::Vector, "every vector is a record"),
     ("spec/5-interfaces.md#programs-under-test", Cell::Model, "of the tools: `lab/`"),
     ("spec/5-interfaces.md#programs-under-test", Cell::Impl, "of the tools"),
