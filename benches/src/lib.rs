@@ -10,3 +10,4 @@ pub mod race;
 #[cfg(feature = "peers")]
 pub mod table;
 pub mod workload;
+pub mod worst;

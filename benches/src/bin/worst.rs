@@ -1,26 +1,25 @@
 //! `worst`: an adversarial input of the largest sizes for each stage, and how long it takes; and the
-//! time of stage i for the work of its assignment, to choose `work_limit` by. An
-//! attacker chooses tracks and trajectory; the vehicle, the route, the grid and what is detected
-//! are the CAV's own, and stage v is only as slow as this for a vehicle and a grid like these.
+//! time of stage i for the work of its assignment, to choose `work_limit` by.
 
 use std::time::SystemTime;
 
-use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
-    TrajectoryPoint,
-};
+use mufasa::input::cycle::{Cycle, Detection, Ego, Grid, Track};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
-use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
-
-const NOW_NS: i64 = 1_000_000_000;
-const CELLS: i64 = 4096;
+use mufasa_benches::worst::{
+    self, base, detection, earlier, list, neighbours, point, road, timed, track, tracks, trajectory,
+};
 
 fn main() {
     if std::env::args().nth(1).as_deref() == Some("--vehicle") {
-        return vehicle();
+        println!("| stage | input | hardened, ms |\n|---|---|---|");
+        return worst::vehicle(&mut |stage, input, cycle| {
+            let (ms, passed) = mean(&mut Contestant::new(cycle), stage);
+            let name = ["i", "ii", "iii", "iv", "v"][stage as usize];
+            println!("| {name} | {input} | {ms:.3}, {} |", if passed { "passes" } else { "fails" });
+        });
     }
     println!("| stage | input | paper, ms | hardened, ms |\n|---|---|---|---|");
     let cross_sections = road(8192);
@@ -84,66 +83,6 @@ fn main() {
     moving(&still);
 }
 
-/// The same kinds of input in the sizes of docs/configuration.md, which are those of
-/// `mufasa_monitor_settings_default`, hardened: no station can send more.
-fn vehicle() {
-    const TRACKS: u32 = 128;
-    const POINTS: usize = 128;
-    const DETECTIONS: u32 = 256;
-    println!("| stage | input | hardened, ms |\n|---|---|---|");
-    let cross_sections = road(1024);
-    let grid = vec![0; 4096 * 4096 / 8];
-    let whole = base(&cross_sections, &grid);
-    let work_limit = i64::from(TRACKS) * i64::from(TRACKS) * i64::from(DETECTIONS);
-    let parameters = Parameters { work_limit, ..whole.parameters };
-    let base = Cycle { profile: Profile::HARDENED, parameters, ..whole };
-    let row = |input: &str, cycle: &Cycle<'_>, of: Stage, name: &str| {
-        let (ms, passed) = mean(&mut Contestant::new(cycle), of);
-        println!("| {name} | {input} | {ms:.3}, {} |", if passed { "passes" } else { "fails" });
-    };
-
-    let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
-    let line: Vec<_> = places(DETECTIONS, 1.0).map(|x| detection(x, 0.0)).collect();
-    let crowd: Vec<_> = places(TRACKS, 0.001).zip(0..).map(|(y, id)| track(id, -1.0, y)).collect();
-    // With the threshold of assignments() nothing is settled early.
-    let parameters = Parameters { theta_tr: 0.2, ..parameters };
-    let lists = Cycle { tracks: Some(tracks(&crowd)), detections: Some(list(&line)), ..base };
-    let cycle = Cycle { parameters, ..lists };
-    row("128 tracks a millimetre apart, 256 detections in a row across", &cycle, Stage::I, "i");
-    let upon = timed(places(128, 0.1).map(|x| point(x, 0.0)).collect());
-    let cycle = Cycle { trajectory: Some(trajectory(&upon)), ..base };
-    row("128 points on 1024 cross sections of a road without width", &cycle, Stage::Ii, "ii");
-    let standing = timed(vec![point(0.0, 0.0); POINTS]);
-    let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
-    let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
-    let near: Vec<_> = (0..i64::from(TRACKS)).map(|id| track(id, 0.0, touching)).collect();
-    let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
-    row("128 tracks 1 nm beside the CAV at 128 points", &cycle, Stage::Iii, "iii");
-    let (_, beside) = neighbours(&still, DETECTIONS);
-    let cycle = Cycle { detections: Some(list(&beside)), ..still };
-    row("256 detections 1 nm beside the CAV at 128 points", &cycle, Stage::Iv, "iv");
-    // H-14 compares each with each at each point; beyond work_limit it fails at once.
-    let before = earlier(&beside, 500);
-    let with = |count: usize| {
-        (list(&beside[..count]), [DetectionList { items: &beside[..count], ..before }])
-    };
-    let passes = |count: &usize| {
-        let (detections, history) = with(*count);
-        let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
-        Contestant::new(&cycle).stage(Stage::Iv)
-    };
-    let most = (1..=beside.len()).rev().find(passes).unwrap_or(1);
-    let (detections, history) = with(most);
-    let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
-    let name = format!(
-        "{most} of them, as many as work_limit allows, with an earlier list like that (H-14)"
-    );
-    row(&name, &cycle, Stage::Iv, "iv");
-    let creeping = timed(places(128, 0.008).map(|x| point(x, 0.0)).collect());
-    let cycle = Cycle { trajectory: Some(trajectory(&creeping)), ..base };
-    row("128 points on an empty grid of 4096 x 4096 cells of 1 cm", &cycle, Stage::V, "v");
-}
-
 /// Tracks and detections in a row of 0.2 m that look like one place to every index, as there is
 /// one thing far off; the same with earlier lists of them.
 fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
@@ -184,17 +123,6 @@ fn moving(still: &Cycle<'_>) {
         let work = f64::from(count) * f64::from(count) * 1024.0;
         println!("| {count} | {count} | {work:.1e} | {ms:.3} |");
     }
-}
-
-/// So many detections at the same place, 1 nm beside the CAV where it stands; how far that is aside.
-fn neighbours(still: &Cycle<'_>, count: u32) -> (f64, Vec<Detection>) {
-    let touching = 0.5 * (still.ego.width + 1.8) + 1e-9;
-    (touching, (0..count).map(|_| detection(0.0, touching)).collect())
-}
-
-/// A list so many ms before now.
-fn earlier(items: &[Detection], ms: i64) -> DetectionList<'_> {
-    DetectionList { stamp_ns: NOW_NS - ms * 1_000_000, items }
 }
 
 fn assignments(base: &Cycle<'_>, crowd: &[Track], line: &[Detection]) {
@@ -257,86 +185,4 @@ fn cpu_ms() -> f64 {
         || SystemTime::UNIX_EPOCH.elapsed().map_or(0.0, |since| since.as_secs_f64() * 1e3),
         |ns| ns / 1e6,
     )
-}
-
-fn base<'a>(cross_sections: &'a [CrossSection], grid: &'a [u8]) -> Cycle<'a> {
-    Cycle {
-        profile: Profile::PAPER,
-        parameters: Parameters {
-            theta_tr: 512.0,
-            theta_obj: 1e3,
-            theta_track_max: 1e3,
-            ..Parameters::default()
-        },
-        now_ns: NOW_NS,
-        configuration: Configuration::AllRemote,
-        ego: Ego {
-            x: -1.0,
-            y: 0.0,
-            cos: 1.0,
-            sin: 0.0,
-            speed: 100.0,
-            length: 4.8,
-            width: 1.9,
-            center_offset: 0.0,
-        },
-        trajectory: None,
-        tracks: None,
-        detections: None,
-        lead: None,
-        route: Route { closed: false, cross_sections },
-        grid: Some(Grid {
-            stamp_ns: NOW_NS,
-            x: 0.0,
-            y: 0.0,
-            cos: 1.0,
-            sin: 0.0,
-            resolution: 0.01,
-            width: CELLS,
-            height: CELLS,
-            occupied: grid,
-            unknown: None,
-        }),
-        detection_history: &[],
-    }
-}
-
-fn road(count: u32) -> Vec<CrossSection> {
-    let cross_section = |i: u32| {
-        let x = 0.02 * f64::from(i);
-        CrossSection { x, y: 0.0, left: [x, 0.0], right: [x, 0.0] }
-    };
-    (0..count).map(cross_section).collect()
-}
-
-fn track(id: i64, x: f64, y: f64) -> Track {
-    Track { id, x, y, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
-}
-
-fn detection(x: f64, y: f64) -> Detection {
-    Detection { x, y, cos: 1.0, sin: 0.0, length: 4.5, width: 1.8 }
-}
-
-fn point(x: f64, y: f64) -> TrajectoryPoint {
-    TrajectoryPoint { t_ns: 0, x, y, cos: 1.0, sin: 0.0 }
-}
-
-/// The points a millisecond apart.
-fn timed(mut points: Vec<TrajectoryPoint>) -> Vec<TrajectoryPoint> {
-    for (point, t) in points.iter_mut().zip(0..) {
-        point.t_ns = NOW_NS + t * 1_000_000;
-    }
-    points
-}
-
-fn trajectory(points: &[TrajectoryPoint]) -> Trajectory<'_> {
-    Trajectory { stamp_ns: NOW_NS, points }
-}
-
-fn tracks(items: &[Track]) -> TrackList<'_> {
-    TrackList { stamp_ns: NOW_NS, items }
-}
-
-fn list(items: &[Detection]) -> DetectionList<'_> {
-    DetectionList { stamp_ns: NOW_NS, items }
 }
