@@ -133,3 +133,15 @@ fn who_follows_does_not_count() {
     scene.tracks = Some(vec![Track { vy: 5.0, ..behind(0) }]);
     assert_eq!(scene.failure_of_iv().map(|it| it.rule), Some(Rule::FailSafe));
 }
+
+/// Who drifts into the CAV's way ahead of it keeps beside the path, which is 10 um aside all along: nearer
+/// than plain doubles tell. It does not where the path leads 20 um to its side.
+#[test]
+fn who_keeps_beside_by_less_than_plain_doubles_tell() {
+    let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
+    let drifting = Track { vx: 20.0, vy: -2e-5, ..track(1, -3.5, 1.95 + 1e-5) };
+    scene.tracks = Some(vec![drifting]);
+    assert_eq!(scene.failure_of_iv(), None);
+    scene.points.iter_mut().skip(3).for_each(|point| point.y = 2e-5);
+    assert_eq!(scene.failure_of_iv().map(|it| it.rule), Some(Rule::FailSafe));
+}

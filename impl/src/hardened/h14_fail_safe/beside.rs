@@ -2,7 +2,8 @@
 //!
 //! An object is compared with how far places reach to the sides of the reference path, all of them
 //! together: in plain doubles, of which each distance errs by less than 2e-6 m, `ERROR` being more than
-//! what is compared does. Only what these leave open is asked of one place after the other.
+//! what is compared does. Only what these leave open is compared with error bounds, and these are found
+//! once for all objects.
 
 use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::input::cycle::Ego;
@@ -24,6 +25,8 @@ const STRAIGHT: f64 = 300.0;
 const FARTHEST: f64 = 20.0;
 /// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 10.0;
+/// No place is so far from the reference path, m.
+const FAR: Real = Real::new(1e9);
 /// So many places are looked at together.
 const FEW: f64 = 4096.0;
 
@@ -48,11 +51,13 @@ pub(super) struct Beside<'c, 'a> {
     aside: Real,
     lane: Option<Lane>,
     straight: Option<bool>,
+    /// See `Beside::sides`.
+    sides: Option<[Real; 2]>,
 }
 
 impl<'c, 'a> Beside<'c, 'a> {
     pub(super) const fn new(path: &Path<'c, 'a>, route: IndexedRoute<'c, 'a>, aside: Real) -> Self {
-        Self { path: *path, route, aside, lane: None, straight: None }
+        Self { path: *path, route, aside, lane: None, straight: None, sides: None }
     }
 
     /// Whether the object certainly does, if it does not lie across the way.
@@ -63,9 +68,29 @@ impl<'c, 'a> Beside<'c, 'a> {
         }
         let Some((away, needed)) = self.needed(object, lane.hint) else { return false };
         lane.has_room_for(away.value(), needed.value()).unwrap_or_else(|| {
-            let has_none = |place: &Place| (!self.has_room(place, away, needed)).then_some(());
+            if lane.is_closed_up {
+                let [least, greatest] = self.sides(&lane);
+                let room = (least - away).max(away - greatest);
+                return needed.certainly_below(room * away);
+            }
+            let has_none =
+                |place: &Place| (!self.has_room(place, &lane, (away, needed))).then_some(());
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
+    }
+
+    /// The least `D_k` - `E_k` and the greatest `D_k` + `E_k`; of a path that may bend too much, everything.
+    fn sides(&mut self, lane: &Lane) -> [Real; 2] {
+        if let Some(sides) = self.sides {
+            return sides;
+        }
+        let pieces = self.path.pieces();
+        let mut places = pieces.flat_map(|it| (0..it.count()).map(move |k| it.place(k)));
+        let found = places.try_fold([FAR, -FAR], |[least, greatest], place| {
+            let [away, reach] = self.reach(&place, lane)?;
+            Some([least.min(away - reach), greatest.max(away + reach)])
+        });
+        *self.sides.insert(found.unwrap_or([-FAR, FAR]))
     }
 
     /// Whether lanes certainly run straight on for who does not come towards the CAV.
@@ -101,15 +126,23 @@ impl<'c, 'a> Beside<'c, 'a> {
     }
 
     /// Whether there certainly is room at a place.
-    fn has_room(&self, place: &Place, away: Real, needed: Real) -> bool {
+    fn has_room(&self, place: &Place, lane: &Lane, (away, needed): (Real, Real)) -> bool {
+        self.reach(place, lane).is_some_and(|[from, reach]| {
+            needed.certainly_below(((away - from).abs() - reach) * away)
+        })
+    }
+
+    /// `D_k` and the most `E_k` of a place, where the path certainly bends little and lies beyond no end of
+    /// the route.
+    fn reach(&self, place: &Place, lane: &Lane) -> Option<[Real; 2]> {
         let ego = &self.path.nodes.cycle.ego;
         let (h, h_k) = (vector([ego.cos, ego.sin]), vector(place.pose.heading));
         let most = Real::new(BEND) + place.way.over(Real::new(RADIUS));
         let centre = footprint(ego, &place.pose).centre;
         if !h.cross(h_k).abs().certainly_at_most(most) || !self.route.certainly_has_beside(centre) {
-            return false;
+            return None;
         }
-        let nearest = self.route.nearest(centre, self.lane.map_or(0, |lane| lane.hint));
+        let nearest = self.route.nearest(centre, lane.hint);
         let mut extent = Real::ZERO;
         self.route.each_nearest(centre, nearest, |segment| {
             let g = Vector::between(segment.from, segment.to);
@@ -117,8 +150,7 @@ impl<'c, 'a> Beside<'c, 'a> {
             let across = h_k.dot(g).abs() * width + h_k.cross(g).abs() * length;
             extent = extent.max(across.over(g.norm()));
         });
-        let room = (away - nearest.0).abs() - (extent + self.aside);
-        needed.certainly_below(room * away)
+        Some([nearest.0, extent + self.aside])
     }
 }
 
@@ -132,7 +164,8 @@ struct Lane {
     inner: [f64; 2],
     /// Whether the path bends little everywhere, and lies beyond no end of the route, if that is certain.
     is_open: Option<bool>,
-    /// Whether nothing is between two places that follow each other.
+    /// Whether nothing is between two places that follow each other: then room beside all of them is on
+    /// one side of all.
     is_closed_up: bool,
     /// A segment that is near.
     hint: usize,
@@ -149,13 +182,13 @@ impl Lane {
         }
         route.in_corridor([x, y], &mut lane.hint);
         if path.nodes.most_places() > FEW {
-            return Self { is_open: None, ..lane };
+            return Self { is_open: None, is_closed_up: false, ..lane };
         }
         let mut before = [f64::MIN, f64::MAX];
         for piece in path.pieces() {
             for k in 0..piece.count() {
                 let Some(place) = piece.plainly(k) else {
-                    lane.is_open = None;
+                    (lane.is_open, lane.is_closed_up) = (None, false);
                     continue;
                 };
                 lane.add(
