@@ -50,10 +50,13 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     let near: Vec<_> = (0..i64::from(TRACKS)).map(|id| track(id, 0.0, touching)).collect();
     let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
     row(Stage::Iii, "128 tracks 1 nm beside the CAV at 128 points", &cycle);
-    let (_, beside) = neighbours(&still, DETECTIONS);
+    let far = [detection(0.0, 500.0)];
+    let cycle = Cycle { detections: Some(list(&far)), ..cycle };
+    row(Stage::Iv, "the same tracks in H-14, one detection far off", &cycle);
+    let beside = neighbours(&still, DETECTIONS);
     let cycle = Cycle { detections: Some(list(&beside)), ..still };
     row(Stage::Iv, "256 detections 1 nm beside the CAV at 128 points", &cycle);
-    // H-14 compares each with each at each point; beyond work_limit it fails at once.
+    // H-14 compares each with each at each point; beyond its limits it fails at once.
     let before = earlier(&beside, 500);
     let with = |count: usize| {
         (list(&beside[..count]), [DetectionList { items: &beside[..count], ..before }])
@@ -67,7 +70,7 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     let (detections, history) = with(most);
     let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
     let name = format!(
-        "{most} of them, as many as work_limit allows, with an earlier list like that (H-14)"
+        "{most} of them, as many as its limits allow, with an earlier list like that (H-14)"
     );
     row(Stage::Iv, &name, &cycle);
     let creeping = timed(places(128, 0.008).map(|x| point(x, 0.0)).collect());
@@ -75,10 +78,10 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     row(Stage::V, "128 points on an empty grid of 4096 x 4096 cells of 1 cm", &cycle);
 }
 
-/// So many detections at the same place, 1 nm beside the CAV where it stands; how far that is aside.
-pub fn neighbours(still: &Cycle<'_>, count: u32) -> (f64, Vec<Detection>) {
+/// So many detections at the same place, 1 nm beside the CAV where it stands.
+pub fn neighbours(still: &Cycle<'_>, count: u32) -> Vec<Detection> {
     let touching = 0.5 * (still.ego.width + 1.8) + 1e-9;
-    (touching, (0..count).map(|_| detection(0.0, touching)).collect())
+    (0..count).map(|_| detection(0.0, touching)).collect()
 }
 
 /// A list so many ms before now.

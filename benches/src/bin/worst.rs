@@ -97,7 +97,7 @@ fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
     let cycle = Cycle { detection_history: &earlier, ..cycle };
     report("i", "the same with 4 earlier lists like that", &cycle, Stage::I);
 
-    let (_, beside) = neighbours(still, 48);
+    let beside = neighbours(still, 48);
     let cycle = Cycle { detections: Some(list(&beside)), ..*still };
     report("iv", "48 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
     let earlier = [300, 500, 800].map(|ms| self::earlier(&beside, ms));
@@ -110,7 +110,7 @@ fn moving(still: &Cycle<'_>) {
     println!("\n| detections | earlier items, each at 1024 points | work of H-14 | ms |");
     println!("|---|---|---|---|");
     for count in [4, 8, 16, 32, 64] {
-        let (touching, beside) = neighbours(still, count);
+        let beside = neighbours(still, count);
         let earlier = [earlier(&beside, 500)];
         let cycle = Cycle {
             profile: Profile::HARDENED,
@@ -119,9 +119,9 @@ fn moving(still: &Cycle<'_>) {
             ..*still
         };
         let (ms, passes) = mean(&mut Contestant::new(&cycle), Stage::Iv);
-        assert!(passes, "nothing touches at {touching} m");
         let work = f64::from(count) * f64::from(count) * 1024.0;
-        println!("| {count} | {count} | {work:.1e} | {ms:.3} |");
+        let passes = if passes { "passes" } else { "fails" };
+        println!("| {count} | {count} | {work:.1e} | {ms:.3}, {passes} |");
     }
 }
 
