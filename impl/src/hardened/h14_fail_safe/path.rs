@@ -27,7 +27,7 @@ pub(crate) struct Nodes<'c, 'a> {
     pub(crate) cycle: &'c Cycle<'a>,
     /// Those of the trajectory.
     points: &'a [TrajectoryPoint],
-    /// d, m.
+    /// d_p, m.
     d: f64,
 }
 
