@@ -80,7 +80,6 @@ fn main() {
     }
 
     assignments(&base, &crowd, &line);
-    moving(&still);
 }
 
 /// Tracks and detections in a row of 0.2 m that look like one place to every index, as there is
@@ -103,26 +102,6 @@ fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
     let earlier = [300, 500, 800].map(|ms| self::earlier(&beside, ms));
     let cycle = Cycle { detection_history: &earlier, ..cycle };
     report("iv", "the same with 3 earlier lists like that (H-14)", &cycle, Stage::Iv);
-}
-
-/// H-14: what it takes for each detection and each item of the reference list, and at each point.
-fn moving(still: &Cycle<'_>) {
-    println!("\n| detections | earlier items, each at 1024 points | work of H-14 | ms |");
-    println!("|---|---|---|---|");
-    for count in [4, 8, 16, 32, 64] {
-        let beside = neighbours(still, count);
-        let earlier = [earlier(&beside, 500)];
-        let cycle = Cycle {
-            profile: Profile::HARDENED,
-            detections: Some(list(&beside)),
-            detection_history: &earlier,
-            ..*still
-        };
-        let (ms, passes) = mean(&mut Contestant::new(&cycle), Stage::Iv);
-        let work = f64::from(count) * f64::from(count) * 1024.0;
-        let passes = if passes { "passes" } else { "fails" };
-        println!("| {count} | {count} | {work:.1e} | {ms:.3}, {passes} |");
-    }
 }
 
 fn assignments(base: &Cycle<'_>, crowd: &[Track], line: &[Detection]) {
