@@ -168,9 +168,10 @@ def test_every_sequence_is_answered_as_its_vector_says() -> None:
 def test_random_sequences_are_answered_as_the_model_does(tmp_path: Path) -> None:
     """Those that ``mufasa conform`` asks, without a ``stall`` and with the memory of Python."""
     asked = tmp_path / "asked.jsonl"
-    command = [program(), "conform", "-q", "--kinds", "monitor", "--cases", "150", "--no-vectors"]
+    kind = ["--kinds", "monitor", "--cases", "150", "--no-vectors"]
+    command = [str(program()), "conform", "-q", *kind]
     asks = ["sh", "-c", f"tee '{asked}' | '{program()}' oracle"]
-    subprocess.run([*command, "--out", tmp_path, "--", *asks], stdout=-3, check=True)
+    subprocess.run([*command, "--out", str(tmp_path), "--", *asks], stdout=-3, check=True)
     records = [json.loads(line) for line in asked.read_text().splitlines()]
     records = [{**it, "stall": None, "memory": MEMORY} for it in records]
     lines = "".join(json.dumps(it) + "\n" for it in records)
