@@ -93,8 +93,12 @@ pub fn run(settings: &Settings, out: &mut impl Write) -> Result<End, Stopped> {
         write!(out, "{summary}")?;
         end = end.max(found);
     }
-    let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
-    write!(out, "{table}")?;
+    if settings.markdown {
+        write!(out, "{}", tables::markdown(&lines))?;
+    } else {
+        let table = if settings.summary { String::new() } else { tables::text(&lines) };
+        write!(out, "{}{table}{}\n", required::promised(&lines), tables::counts(&lines))?;
+    }
     if let Some(path) = &settings.into {
         write_document(path, settings, &lines).map_err(cannot(path, "written"))?;
     }

@@ -7,6 +7,21 @@ use std::path::Path;
 use super::End;
 use super::claim::{Claim, Status};
 
+/// What a release needs proved, which is what docs/proofs.md and the README say.
+const RELEASE: &str = include_str!("../../../../proofs/required.txt");
+
+/// How many of these claims were asked and proved here, and by the verdict that counts how many were not.
+pub(super) fn promised(lines: &[Claim]) -> String {
+    let all = ids(RELEASE);
+    let of_release = || lines.iter().filter(|line| all.contains(&line.id));
+    let (asked, count) = (of_release().count(), |status| {
+        let lines = of_release().filter(|line| line.answer.status == status);
+        format!("{} {}", lines.count(), status.name())
+    });
+    let each = Status::ALL.map(count).join(", ");
+    format!("of {} claims that a release proves, {asked} were asked: {each}\n", all.len())
+}
+
 /// The ids in a list, one a line; what stands behind `#` is said to people.
 ///
 /// Errors, in words: the file cannot be read, lists nothing, or something that is no claim.
