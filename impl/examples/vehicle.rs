@@ -22,9 +22,13 @@ const PERIOD: Duration = Duration::from_millis(50);
 const SECOND: i64 = 20;
 const CYCLES: i64 = 20 * SECOND;
 const MOST_DETECTIONS: usize = 16;
+/// The network loses what the station sends in this cycle.
+const LOST: i64 = 2 * SECOND;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let settings = Settings::new(PERIOD);
+    let mut settings = Settings::new(PERIOD);
+    // Two periods and the largest jitter: one lost message does not end a session.
+    settings.requester.dt_max_ns = 120_000_000;
     let route = road();
     let memory = Memory {
         stations: &mut [StationRecord::FREE; 4],
@@ -44,6 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // `brake_by`: it brakes fully by then, so begins earlier by the build-up of its brakes, which this stand-in does
     // not have. Control, which runs more often than cycles do, has to look at that time itself.
     let (mut kept, mut brake_by) = (Vec::new(), None);
+    // The last of each that was accepted: it bridges a lost message while it is current.
+    let (mut tracks, mut trajectory) = (None, None);
     for cycle in 0..CYCLES {
         let now = Time::from_milliseconds(1000 / SECOND * cycle)?;
         let world = World::at(now);
@@ -57,13 +63,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         station.take(&monitor.tick(now));
         let aside = if (4 * SECOND..5 * SECOND).contains(&cycle) { 3.0 } else { 0.0 };
-        let mut tracks = None;
-        if let Some(message) = station.tracks(now, world.tracks(aside)) {
-            tracks = accepted(monitor.tracks(now, message)?, &mut station);
+        if let Some(message) = station.tracks(now, world.tracks(aside)).filter(|_| cycle != LOST) {
+            tracks = accepted(monitor.tracks(now, message)?, &mut station).or(tracks);
         }
-        let mut trajectory = None;
-        if let Some(message) = station.trajectory(now, world.trajectory()) {
-            trajectory = accepted(monitor.trajectory(now, message)?, &mut station);
+        if let Some(message) = station.trajectory(now, world.trajectory()).filter(|_| cycle != LOST)
+        {
+            trajectory = accepted(monitor.trajectory(now, message)?, &mut station).or(trajectory);
         }
 
         // What the CAV measured and planned itself.
@@ -81,6 +86,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
         // The one way to what the station sent.
         let (decision, actions) = monitor.cycle(&inputs);
+        if cycle == LOST && !matches!(decision, Decision::Safe { trajectory: Some(_), .. }) {
+            return Err("a lost message was not bridged".into());
+        }
         match decision {
             Decision::Safe { trajectory: Some(trajectory), .. } => {
                 (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());

@@ -44,6 +44,8 @@
 //! };
 //! let parked = Detection { x: 3.0, y: 5.0, cos: 1.0, sin: 0.0, length: 4.5, width: 1.9 };
 //! let mut driven_as_verified = 0;
+//! // The last of each that was accepted stays until a newer one comes: it bridges a lost message while it is current.
+//! let (mut tracks, mut trajectory) = (None, None);
 //! for period in 0..30 {
 //!     let now = Time::from_milliseconds(50 * period)?;
 //!
@@ -53,7 +55,6 @@
 //!         let actions = monitor.offer(now, 1, Groups::ALL)?;
 //!         assert!(actions.is_empty());
 //!     }
-//!     let (mut tracks, mut trajectory) = (None, None);
 //!     let asked = monitor.tick(now);
 //!     for action in &asked {
 //!         if let Action::Request { station, group, session } = *action {
