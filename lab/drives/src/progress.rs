@@ -41,7 +41,8 @@ pub fn bar(steps: u64, template: &str) -> ProgressBar {
         Mode::Bar => ProgressDrawTarget::stderr(),
         Mode::Lines => ProgressDrawTarget::term_like_with_hz(Box::new(Lines::default()), 1),
     };
-    let bar = ProgressBar::with_draw_target(Some(steps), target);
+    // With 0 of 0 steps a bar would be full.
+    let bar = ProgressBar::with_draw_target((steps > 0).then_some(steps), target);
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.with_key("left", left));
     }

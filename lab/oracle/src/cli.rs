@@ -220,7 +220,11 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
 fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
-    let ComposeArguments { file, dot, svg } = arguments;
+    let ComposeArguments { file, dot, svg, .. } = arguments;
+    let Some(file) = file else {
+        write!(out, "{}", compose::EXAMPLE)?;
+        return Ok(0);
+    };
     let text = fs::read_to_string(file).map_err(cannot(file, "read"))?;
     let composed =
         compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;

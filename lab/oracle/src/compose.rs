@@ -22,6 +22,9 @@ use mufasa_records::{self as json, LineError, Record, names};
 /// Width of a table, characters.
 const TABLE_WIDTH: u16 = 110;
 
+/// The services of the paper's Fig. 2.
+pub const EXAMPLE: &str = include_str!("../../../examples/fig2.json");
+
 /// A service set with its compositions.
 pub struct Composed {
     id: String,

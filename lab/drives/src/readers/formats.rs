@@ -12,7 +12,7 @@ const UTF_16: &str =
     "text in UTF-16, which is not read: write it as UTF-8, as `iconv -f UTF-16 -t UTF-8 FILE` does";
 const ARRAY: &str = "one JSON array, which is not read: JSON Lines have every record on a line of its own, as \
                      `jq -c .[] FILE` writes it";
-const KNOWN: [(&[u8], &str); 8] = [
+const KNOWN: [(&[u8], &str); 7] = [
     (GZ, UNPACK),
     (b"PK\x03\x04", UNPACK),
     (b"\x28\xb5\x2f\xfd", UNPACK),
@@ -20,7 +20,6 @@ const KNOWN: [(&[u8], &str); 8] = [
     (b"BZh", UNPACK),
     (b"\xff\xfe", UTF_16),
     (b"\xfe\xff", UTF_16),
-    (b"[", ARRAY),
 ];
 /// What `check` reads, for a file that is nothing known.
 pub(crate) const READ: &str = "CommonRoad XML, cycles as JSON Lines or in MCAP logs and maps as .npy \
@@ -37,7 +36,14 @@ pub(crate) fn is_named_lines(path: &Path) -> bool {
 
 /// What to do with a file of a format that is not read; `None` where its bytes are of no such format.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
-    KNOWN.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, advice)| *advice)
+    let known = KNOWN.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, advice)| *advice);
+    known.or_else(|| is_array(bytes).then_some(ARRAY))
+}
+
+/// Of records; a file of TOML may begin with a name in brackets.
+fn is_array(bytes: &[u8]) -> bool {
+    let items = bytes.strip_prefix(b"[").map(<[u8]>::trim_ascii_start);
+    items.is_some_and(|it| it.starts_with(b"{") || it.starts_with(b"]"))
 }
 
 /// What is wrong with text that is not UTF-8, and what to do with it. `error` says where it is not.

@@ -122,7 +122,11 @@ pub(super) struct OracleArguments {
 Exit codes: 0 there is a composition, 1 there is none, 2 bad input.")]
 pub(super) struct ComposeArguments {
     /// A composition record (JSON).
-    pub(super) file: PathBuf,
+    #[arg(required_unless_present = "example")]
+    pub(super) file: Option<PathBuf>,
+    /// Print a record to begin with, that of the paper's Fig. 2, and end.
+    #[arg(long, conflicts_with_all = ["file", "dot", "svg"])]
+    pub(super) example: bool,
     /// Write the graph in the language of Graphviz.
     #[arg(long, conflicts_with = "svg")]
     pub(super) dot: bool,

@@ -18,6 +18,9 @@ use crate::limits::whole;
 #[command(
     args_conflicts_with_subcommands = true,
     after_help = "\
+What comes back is checked in one of three ways: sofof, its age alone; paper, the five stages as published; hardened,
+with the rules that close their gaps.
+
 Of the cycles that the stages decide one in a hundred is checked by the exact model, too.
 
 Exit codes: 0 done, 1 a run that was checked by the hardened profile failed (a collision, or too late), 2 bad input or a

@@ -1,9 +1,7 @@
 //! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
 
-use mufasa_oracle::compose::{Composed, composed};
+use mufasa_oracle::compose::{Composed, EXAMPLE as FIG_2, composed};
 use mufasa_records::{Answer, answer};
-
-const FIG_2: &str = include_str!("../../../../examples/fig2.json");
 
 fn fig_2() -> Composed {
     composed(FIG_2).expect("the example composes")

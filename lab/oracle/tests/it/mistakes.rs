@@ -27,6 +27,9 @@ fn every_kind_of_bad_file_is_named_and_the_others_are_still_checked() {
     let all: Vec<_> = ["check", "--summary"].into_iter().chain(bad.iter().map(|s| &**s)).collect();
     let told = mufasa(&all);
     assert_eq!((told.code, told.err.lines().count()), (Some(2), bad.len()));
+    // JSON in one array is named so, names in brackets are not.
+    let told = |text: &str| mufasa(&["check", &write(&folder, "brackets", text)]).err;
+    assert!(told("[{}]").contains("one JSON array") && !told("[stages]\n").contains("array"));
     // Files are counted, and not their lines.
     let wrong = write(&folder, "wrong.jsonl", "{}\n".repeat(30));
     let told = mufasa(&["check", &wrong]);
