@@ -96,8 +96,13 @@ pub fn run(settings: &Settings, out: &mut impl Write) -> Result<End, Stopped> {
     if settings.markdown {
         write!(out, "{}", tables::markdown(&lines))?;
     } else {
-        let table = if settings.summary { String::new() } else { tables::text(&lines) };
-        write!(out, "{}{table}{}\n", required::promised(&lines), tables::counts(&lines))?;
+        if required.is_none() {
+            writeln!(out, "{}", required::promised(&lines))?;
+        }
+        if !settings.summary {
+            write!(out, "{}", tables::text(&lines))?;
+        }
+        writeln!(out, "{}", tables::counts(&lines))?;
     }
     if let Some(path) = &settings.into {
         write_document(path, settings, &lines).map_err(cannot(path, "written"))?;

@@ -6,20 +6,17 @@ use std::path::Path;
 
 use super::End;
 use super::claim::{Claim, Status};
+use super::tables;
 
 /// What a release needs proved, which is what docs/proofs.md and the README say.
 const RELEASE: &str = include_str!("../../../../proofs/required.txt");
 
-/// How many of these claims were asked and proved here, and by the verdict that counts how many were not.
+/// How many of these claims were asked here, and the number of each verdict.
 pub(super) fn promised(lines: &[Claim]) -> String {
     let all = ids(RELEASE);
-    let of_release = || lines.iter().filter(|line| all.contains(&line.id));
-    let (asked, count) = (of_release().count(), |status| {
-        let lines = of_release().filter(|line| line.answer.status == status);
-        format!("{} {}", lines.count(), status.name())
-    });
-    let each = Status::ALL.map(count).join(", ");
-    format!("of {} claims that a release proves, {asked} were asked: {each}\n", all.len())
+    let asked = lines.iter().filter(|line| all.contains(&line.id));
+    let (count, each) = (asked.clone().count(), tables::counts(asked));
+    format!("of {} claims that a release proves, {count} were asked: {each}", all.len())
 }
 
 /// The ids in a list, one a line; what stands behind `#` is said to people.

@@ -12,8 +12,8 @@ pub const CBMC: &str = "target/proofs/cbmc.json";
 #[command(after_help = "\
 Engines: z3 (theorems over the reals), exploration (the protocol), harnesses (of impl; most are proved
 only where scripts/prove-wasm was run before, else tested); those that are not here are listed as not run.
-The first lines say which are missing, and where they come from; the next ones how much of what a release
-proves (proofs/required.txt) was proved here.
+The first lines say which are missing, and where they come from; without --require the next one how much
+of what a release proves (proofs/required.txt) was proved here.
 
 Exit codes: 0 whatever was run is proved, or tested where no engine proves it, 1 something is refuted or
 not known, 2 bad input or an engine broke down. With --require 1 also where a claim of the list is not
