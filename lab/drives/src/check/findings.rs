@@ -76,14 +76,17 @@ impl Findings {
             0 => "; model and implementation agree".to_owned(),
             count => format!("; model and implementation DISAGREE {}", counted(*count, "time")),
         };
-        let mut text = format!(
-            "{}, {}: {} safe, {} unsafe, {}, {offloaded} offloaded{agreement}",
-            counted(*drives, "drive"),
-            counted(tally.cycles, "cycle"),
-            tally.safe,
-            tally.unsafe_cycles(),
-            counted(*fallbacks, "fallback"),
-        );
+        let cycles = || {
+            format!(
+                "{}, {}: {} safe, {} unsafe, {}, {offloaded} offloaded{agreement}",
+                counted(*drives, "drive"),
+                counted(tally.cycles, "cycle"),
+                tally.safe,
+                tally.unsafe_cycles(),
+                counted(*fallbacks, "fallback"),
+            )
+        };
+        let mut text = if *drives == 0 { "no drive".to_owned() } else { cycles() };
         for (count, what) in [
             (*lost, "time tracking or planning went back to local for late data or silence"),
             (tally.errors, "cycle with invalid local input"),
@@ -132,5 +135,8 @@ mod tests {
             text.ends_with("offloaded; 2 files with something that could not be read or written"),
             "{text}"
         );
+        // And has no zeros where there was no drive.
+        let text = Findings { unreadable: 1, ..Findings::default() }.summary();
+        assert_eq!(text, "no drive; 1 file with something that could not be read or written");
     }
 }

@@ -16,7 +16,7 @@ pub(super) fn promised(lines: &[Claim]) -> String {
     let all = ids(RELEASE);
     let asked = lines.iter().filter(|line| all.contains(&line.id));
     let (count, each) = (asked.clone().count(), tables::counts(asked));
-    format!("of {} claims that a release proves, {count} were asked: {each}", all.len())
+    format!("asked {count} of {} claims that a release proves: {each}", all.len())
 }
 
 /// The ids in a list, one a line; what stands behind `#` is said to people.
