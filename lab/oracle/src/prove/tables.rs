@@ -142,9 +142,9 @@ fn seconds(answer: &EngineAnswer) -> String {
 }
 
 /// The number of each verdict.
-pub fn counts<'l>(lines: impl IntoIterator<Item = &'l Claim> + Clone) -> String {
-    let of = |status| move |line: &&Claim| line.answer.status == status;
-    let count = |status| lines.clone().into_iter().filter(of(status)).count();
+pub fn counts<'l>(lines: impl IntoIterator<Item = &'l Claim>) -> String {
+    let given: Vec<Status> = lines.into_iter().map(|line| line.answer.status).collect();
+    let count = |status| given.iter().filter(|it| **it == status).count();
     let counts = Status::ALL.map(|status| format!("{} {}", count(status), status.name()));
     counts.join(", ")
 }
