@@ -104,7 +104,7 @@ impl Cover {
     /// With the CAV at two places and between, of that heading.
     #[inline]
     pub(super) fn add(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
-        let cav = rectangle(ego, heading);
+        let cav = MovingRectangle::cav(ego, heading);
         let (reach, forward) = (cav.extents(self.axis), split(self.axis, cav.centre));
         for place in places {
             let [along, across] = split(self.axis, place);
@@ -181,16 +181,6 @@ impl Seen {
         let aside = (va * across - vb * along).abs() * length;
         let reach = va.abs() * half_b + vb.abs() * half_a + aside + f64::MIN_POSITIVE;
         (va * b - vb * a).abs() > reach + (va * along + vb * across).abs() * width
-    }
-}
-
-/// The CAV's rectangle, its reference point at the origin.
-pub(super) fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
-    MovingRectangle {
-        centre: [ego.center_offset * cos, ego.center_offset * sin],
-        direction: [cos, sin],
-        velocity: [0.0; 2],
-        size: [ego.length, ego.width],
     }
 }
 
@@ -273,7 +263,7 @@ impl Covers {
     }
 
     fn extend_upright(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
-        let cav = rectangle(ego, heading);
+        let cav = MovingRectangle::cav(ego, heading);
         for [x, y] in places {
             let centre = [x + cav.centre[0], y + cav.centre[1]];
             extend(&mut self.upright, centre, [cav.reach(); 2]);

@@ -5,12 +5,11 @@
 //! coordinate, up to 2^26 m, errs by less than 1e-6 m, and so does what an object of 1000 m/s moves in
 //! 1e5 s.
 
-use crate::hardened::h14_fail_safe::cover::{Clock, Object, rectangle};
+use crate::hardened::h14_fail_safe::cover::{Clock, Object};
 use crate::hardened::h14_fail_safe::path::Place;
 use crate::input::cycle::Ego;
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{larger, smaller};
-use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus, split};
+use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus};
 
 /// More than so many roundings err, of all that is added: 2^-46.
 const ROUGH: f64 = 1.0 / 70_368_744_177_664.0;
@@ -26,7 +25,7 @@ pub(super) struct Spot {
 impl Spot {
     /// Of a CAV so large.
     pub(super) fn new(ego: &Ego, place: &Place) -> Self {
-        let cav = rectangle(ego, place.pose.heading);
+        let cav = MovingRectangle::cav(ego, place.pose.heading);
         let from = place.pose.at - Vector::new(ego.x, ego.y);
         let [x, y] = cav.centre;
         let centre = [from.x.value() + x, from.y.value() + y];
@@ -42,6 +41,10 @@ impl Spot {
         self.is_apart(&MovingRectangle { centre, ..at }, moved, MARGIN)
     }
 
+    fn is_apart(&self, object: &MovingRectangle, moved: [f64; 2], error: f64) -> bool {
+        self.cav.is_clear_of(object, minus(object.centre, self.cav.centre), moved, error)
+    }
+
     /// Whether an object certainly shares no point with it, where it stands; `None` where that takes more
     /// than plain doubles. What is apart in the strict model, with its margin, is found to be so.
     pub(super) fn is_clear_of(&self, object: &MovingRectangle) -> Option<bool> {
@@ -50,26 +53,6 @@ impl Spot {
         let error = (added(&self.cav) + added(object)) * ROUGH;
         let is_apart = self.is_apart(object, [0.0; 2], error);
         (is_apart || error < FINE).then_some(is_apart)
-    }
-
-    /// Separating axes as in `separated_on_the_way`, in plain doubles; products may underflow.
-    fn is_apart(&self, object: &MovingRectangle, moved: [f64; 2], error: f64) -> bool {
-        let (cav, between) = (&self.cav, minus(object.centre, self.cav.centre));
-        let separates = |one: &MovingRectangle, other: &MovingRectangle| {
-            let [gaps, rates] = [between, moved].map(|it| split(one.direction, it));
-            let reaches = one.extents(one.direction).into_iter().zip(other.extents(one.direction));
-            let mut sides = gaps.into_iter().zip(rates).zip(reaches);
-            sides.any(|((gap, rate), (own, reach))| {
-                let (to, half) = (gap + rate, own + reach + error);
-                smaller(gap, to) > half || larger(gap, to) < -half
-            })
-        };
-        let [x, y] = moved;
-        let [_, across] = split(moved, between);
-        let half = cav.extents(moved)[1] + object.extents(moved)[1];
-        separates(cav, object)
-            || separates(object, cav)
-            || across.abs() > half + error * (x.abs() + y.abs()) + f64::MIN_POSITIVE
     }
 }
 
