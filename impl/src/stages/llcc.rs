@@ -1,6 +1,5 @@
 //! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
-pub(crate) mod close;
 pub(crate) mod sweep;
 
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};

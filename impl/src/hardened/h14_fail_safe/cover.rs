@@ -53,10 +53,12 @@ impl Clock {
         larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
-    /// After what time an object that goes on is where it is now when it brakes, rounded down.
+    /// After what time an object that goes on is where it is after so many seconds when it brakes.
     pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
-        let left = larger(speed - self.a_b * seconds, 0.0);
-        if speed > 1e-3 { (speed - left * left / speed) * self.braking - 1e-9 } else { 0.0 }
+        let seconds = larger(seconds, 0.0);
+        let lost = self.a_b * seconds;
+        // Nothing is taken from what is not smaller, so that this errs by less than 2^-50 of itself.
+        if lost < speed { seconds * (1.0 - 0.5 * (lost / speed)) } else { speed * self.braking }
     }
 }
 

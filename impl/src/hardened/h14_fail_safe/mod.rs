@@ -74,7 +74,7 @@ impl FailSafe<'_, '_> {
         if let Some(list) = detections {
             motions.detections(list, age(list.stamp_ns), tracks, scratch);
         }
-        motions.meeting.close.failure().or_else(|| motions.first.map(|found| found.witness))
+        motions.first.map(|found| found.witness)
     }
 
     /// (Places + points) times tracks, plus detections times items of the longest usable list times (items

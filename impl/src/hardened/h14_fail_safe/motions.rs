@@ -102,7 +102,7 @@ impl Motions<'_, '_, '_> {
         let end = self
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
-        if !self.meeting.may_be_met(motion) || self.meeting.close.are_too_many() || !counts(self) {
+        if !self.meeting.may_be_met(motion) || !counts(self) {
             return;
         }
         if let Some(Met { number, point, ways }) = self.meeting.first(motion, end) {

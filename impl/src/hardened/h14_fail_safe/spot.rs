@@ -1,25 +1,31 @@
-//! The CAV at one place in plain doubles, which decide whatever is not close (H-14.54).
+//! The CAV at one place, in plain doubles, which decide whether an object sweeps over it.
 //!
-//! All counts from the CAV's reference point. Places, ways and times come rounded once from numbers with
-//! error bounds, and sizes are taken along directions as long as they are. With less than 32 roundings a
-//! coordinate, up to 2^26 m, errs by less than 1e-6 m, and so does what an object of 1000 m/s moves in
-//! 1e5 s.
+//! All counts from the CAV's reference point. Places and ways come rounded once from numbers with error
+//! bounds. A window errs by less than 1e-14 of H(w), or by 1e-12 s where little way is left to a stop: the root
+//! of a way that is known up to 1e-26 m. Each comparison rounds less than 64 times numbers that are no greater
+//! than D = abs(c - p) + abs(w) (60 s + H(w)), or than 500 m, where the two may be so near that it matters. So it
+//! errs by less than 64 * 2^-53 (D + 500 m) + abs(w) (1e-14 H(w) + 1e-12 s), which is less than a half of `ROUGH` D
+//! and a thousandth of `SLACK`. What is added here is less than four times `ROUGH` D and twice `SLACK`, since D counts
+//! x and y, c where the list has it, and the axis across the way takes x and y apart again: less than the
+//! strict model adds, 1e-12 D and at least 1e-8 m (MARGIN-16).
 
 use crate::hardened::h14_fail_safe::cover::{Clock, Object};
 use crate::hardened::h14_fail_safe::path::Place;
 use crate::input::cycle::Ego;
 use crate::numbers::plane::Vector;
-use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus};
+use crate::stages::llcc::sweep::{MovingRectangle, SLACK, minus};
 
-/// More than so many roundings err, of all that is added: 2^-46.
-const ROUGH: f64 = 1.0 / 70_368_744_177_664.0;
-/// Less than half the least margin of the strict model, m (DOM-01, MARGIN-01).
-const FINE: f64 = 4e-9;
+/// More than comparisons err, of how far an object is and goes.
+const ROUGH: f64 = 1e-13;
+/// No list is older, s.
+const OLDEST: f64 = 60.0;
 
 /// The CAV's rectangle at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
     cav: MovingRectangle,
+    /// More than the place errs, m.
+    error: f64,
 }
 
 impl Spot {
@@ -29,30 +35,20 @@ impl Spot {
         let from = place.pose.at - Vector::new(ego.x, ego.y);
         let [x, y] = cav.centre;
         let centre = [from.x.value() + x, from.y.value() + y];
-        Self { cav: MovingRectangle { centre, ..cav } }
+        Self { cav: MovingRectangle { centre, ..cav }, error: from.x.off() + from.y.off() }
     }
 
-    /// Whether an object certainly sweeps over no point of it between two times after now.
+    /// Whether an object certainly sweeps over no point of it between two times after now. What does not in
+    /// the strict model is found not to.
     pub(super) fn is_missed(&self, object: &Object, [start, end]: [f64; 2], clock: &Clock) -> bool {
         let &Object { at, speed, age } = object;
         let (from, until) = (clock.braked(speed, age + start), age + end);
         let moved = at.velocity.map(|rate| rate * (until - from));
-        let centre = at.after(from);
-        self.is_apart(&MovingRectangle { centre, ..at }, moved, MARGIN)
-    }
-
-    fn is_apart(&self, object: &MovingRectangle, moved: [f64; 2], error: f64) -> bool {
-        self.cav.is_clear_of(object, minus(object.centre, self.cav.centre), moved, error)
-    }
-
-    /// Whether an object certainly shares no point with it, where it stands; `None` where that takes more
-    /// than plain doubles. What is apart in the strict model, with its margin, is found to be so.
-    pub(super) fn is_clear_of(&self, object: &MovingRectangle) -> Option<bool> {
-        let sum = |[a, b]: [f64; 2]| a.abs() + b.abs();
-        let added = |it: &MovingRectangle| sum(it.centre) + sum(it.size);
-        let error = (added(&self.cav) + added(object)) * ROUGH;
-        let is_apart = self.is_apart(object, [0.0; 2], error);
-        (is_apart || error < FINE).then_some(is_apart)
+        let between = minus(at.after(from), self.cav.centre);
+        let [x, y] = at.centre.map(f64::abs);
+        let goes = speed * (OLDEST + clock.until_yielded(speed));
+        let error = SLACK + ROUGH * (x + y + goes) + self.error;
+        self.cav.is_clear_of(&at, between, moved, error)
     }
 }
 

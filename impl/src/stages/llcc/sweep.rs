@@ -91,7 +91,7 @@ impl MovingRectangle {
     ///
     /// Separating axes: the axis of a side of one of the two separates them when there is a gap along it that
     /// the way does not close; and the one across the way, along which the strip is as wide as what moves.
-    /// Products with a tiny way underflow; it makes no difference then.
+    /// Where products with the way underflow, it is too short for that one to make a difference.
     pub(crate) fn is_clear_of(
         &self,
         other: &Self,

@@ -103,6 +103,43 @@ fn what_is_clear_does_not_touch_and_nothing_else_is() {
     assert!(between_both > 2_000, "{between_both}");
 }
 
+/// Beside the CAV, or ahead of it, and moves past, away, or so little that products underflow.
+#[test]
+fn what_is_clear_of_a_way_touches_nowhere_on_it() {
+    let mut random = Random::new(13);
+    let (mut clear, mut touching) = (0, 0);
+    for _ in 0..20_000 {
+        let far = [0.0, 300.0][random.below(2) as usize];
+        let cav = MovingRectangle { velocity: [0.0; 2], ..object(&mut random, far) };
+        let it = near(&mut random, &cav, 0.0);
+        let is_turned = random.below(2) > 0;
+        let direction = if is_turned { random.direction() } else { it.direction };
+        let it = MovingRectangle { direction, ..it };
+        let speed = [0.0, 5e-324, 1e-300, 1e-9, 1.0, 30.0][random.below(6) as usize];
+        let [cos, sin] = cav.direction;
+        let ways = [[cos, sin], [-sin, cos], [sin, -cos], random.direction()];
+        let way = random.below(4) as usize;
+        let moved = ways[way].map(|part| part * speed);
+        let is_clear = cav.is_clear_of(&it, minus(it.centre, cav.centre), moved, SLACK);
+        let touches = |halves: f64| {
+            (0..=64).any(|k| {
+                let by = |part: f64| Real::new(part) * Real::new(f64::from(k) / 64.0);
+                let still = rectangle(&MovingRectangle { velocity: [0.0; 2], ..it }, 0);
+                let centre = still.centre + Vector { x: by(moved[0]), y: by(moved[1]) };
+                let cav = larger(rectangle(&cav, 0), halves);
+                possibly_touch(&cav, &Rectangle { centre, ..still })
+            })
+        };
+        assert!(!(is_clear && touches(0.0)), "{cav:?} {it:?} {moved:?}");
+        // What goes along a side is nearest at an end.
+        let ends_tell = !is_turned && way < 3 || speed < 1e-8;
+        assert!(is_clear || !ends_tell || touches(1e-8), "{cav:?} {it:?} {moved:?}");
+        clear += u32::from(is_clear);
+        touching += u32::from(!is_clear);
+    }
+    assert!(clear > 4_000 && touching > 4_000, "{clear} {touching}");
+}
+
 #[test]
 fn what_is_certainly_contained_is_inside() {
     let mut random = Random::new(12);
