@@ -42,8 +42,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   min(T, c)^2 max(T, c) steps, c = D + `miss_budget`, never more than `work_limit`;
 /// * ii: P S segments and triangles, with an index only those beside each point, which on a folded
 ///   route may be four times as many;
-/// * iii and iv: T P and D P pairs of rectangles, each about 100 operations of plain doubles, and of
-///   1025 close ones and one for each object about 60 with error bounds;
+/// * iii and iv: T P and D P pairs of rectangles, each about 100 operations of plain doubles;
 /// * v: 2 P + log2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
 ///   looks at the square around it (in the paper profile around up to four cells), which is
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells. In the hardened profile
@@ -54,8 +53,8 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   T U distances;
 /// * H-14, with K places, which are `s_stop` / 1/4 m and some for turns: in ii K distances, in iv
 ///   T (K + P) pairs of rectangles, and D times the items of the longest list times (U + K + P), each
-///   about a hundred operations of plain doubles, and of 1025 close ones and one for each object and
-///   pair of items as many with error bounds.
+///   about a hundred operations of plain doubles; for each object and pair of items about a hundred
+///   with error bounds.
 ///
 /// Stage i and H-14 have a limit. The default of `work_limit`, 10^10, is above the most work of
 /// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-14 takes up to
