@@ -35,6 +35,7 @@ use crate::evaluate::merge::MergeArguments;
 use crate::explore;
 use crate::parameters_file;
 use crate::prove;
+use crate::slow;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
 use mufasa_drives::check::{self, Format, Settings};
@@ -78,6 +79,8 @@ enum Command {
     Explore(explore::Settings),
     /// Prove what is claimed with every engine that is here, and list what is proved.
     Prove(prove::Settings),
+    /// Search for cycles that take many instructions.
+    Slow(slow::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     Evaluate(EvaluateArguments),
     /// Put the parts of an experiment together that were made by `evaluate --shard`.
@@ -134,6 +137,7 @@ pub fn main() -> ExitCode {
         }
         Command::Explore(settings) => explore(&settings, &mut out),
         Command::Prove(settings) => prove(settings, &mut out),
+        Command::Slow(settings) => slow::run(&settings, &mut out),
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         Command::Merge(arguments) => merge(&arguments, &mut out),
         Command::Vehicle(arguments) => {

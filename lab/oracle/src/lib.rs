@@ -13,4 +13,5 @@ pub mod parameters_file;
 pub mod prove;
 mod rows;
 pub mod schemas;
+pub mod slow;
 mod spelling;
