@@ -23,7 +23,7 @@ static size_t fallbacks;
 
 static void check(MufasaStatus status, const char *what) {
   if (status == MUFASA_STATUS_OK) return;
-  fprintf(stderr, "%s: status %d\n", what, (int)status);
+  fprintf(stderr, "%s: %s\n", what, mufasa_status_text(status));
   exit(1);
 }
 
@@ -132,7 +132,7 @@ int main(void) {
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
   size_t offloaded = 0;
-  struct MufasaTime brake_by = {INT64_MAX}; /* of the last verified trajectory */
+  struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of the last verified trajectory */
   for (int cycle = 0; cycle < CYCLES; ++cycle) {
     const struct MufasaTime now = mufasa_time_from_milliseconds(PERIOD_MS * cycle);
     struct MufasaEvent event;
@@ -162,8 +162,8 @@ int main(void) {
     struct MufasaDecision decision;
     /* Not OK: inputs of this program that nobody can check. It counts as unsafe, and the vehicle drives on. */
     const MufasaStatus status = mufasa_monitor_cycle(monitor, now, &w.inputs, &decision);
-    if (status != MUFASA_STATUS_OK) fprintf(stderr, "a cycle: status %d\n", (int)status);
-    if (decision.report.verdict != MUFASA_VERDICT_SAFE) {
+    if (status != MUFASA_STATUS_OK) fprintf(stderr, "a cycle: %s\n", mufasa_status_text(status));
+    if (!decision.report.safe) {
       printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.001 * PERIOD_MS * cycle,
              (int)decision.report.failed_stage);
       ++fallbacks;

@@ -15,6 +15,11 @@
 #define MUFASA_MUST_USE
 #endif
 
+/* A number that is initialised as a pointer, as C forbids: `{50}` is no MufasaTime. Newer compilers refuse it anyway. */
+#if defined(__GNUC__) && !defined(__cplusplus)
+#pragma GCC diagnostic error "-Wint-conversion"
+#endif
+
 // First number of the version of this interface; `mufasa_version` says that of the library.
 #define MUFASA_VERSION_MAJOR 0
 
@@ -59,7 +64,8 @@ enum MufasaStatus
   MUFASA_STATUS_NULL_POINTER = 1,
   // A pointer is not aligned for what it points to.
   MUFASA_STATUS_MISALIGNED = 2,
-  // A profile, configuration, group, set of groups or type of an event that does not exist.
+  // A profile, configuration, group, set of groups or type of an event that does not exist; seconds that are
+  // no time.
   MUFASA_STATUS_UNKNOWN_VALUE = 3,
   // The memory is smaller than the function that tells its size says, a number of things that it is
   // to hold is 0, or what was given is longer than that.
@@ -100,28 +106,6 @@ typedef uint32_t MufasaStatus;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The verdict. Compare it with SAFE: UNSAFE and ERROR are not 0 either, so that `if (report.verdict)` is taken
-// for all of them. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
-enum MufasaVerdict
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Nothing was found.
-  MUFASA_VERDICT_SAFE = 1,
-  // `failed_stage` says where.
-  MUFASA_VERDICT_UNSAFE = 2,
-  // Invalid local input (`input` says what), or a call that failed. Treat it as unsafe.
-  MUFASA_VERDICT_ERROR = 3,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum MufasaVerdict MufasaVerdict;
-#else
-typedef uint32_t MufasaVerdict;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
 // What made a cycle unsafe.
 enum MufasaFailedStage
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -144,6 +128,8 @@ enum MufasaFailedStage
   MUFASA_FAILED_STAGE_INPUT = 6,
   // H-05: a trajectory that nothing compared with obstacles.
   MUFASA_FAILED_STAGE_NO_OBSTACLE_CHECK = 7,
+  // Invalid local input (`input` says what), or a call that failed.
+  MUFASA_FAILED_STAGE_ERROR = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -452,15 +438,18 @@ typedef struct MufasaRequester MufasaRequester;
 
 // A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
 // of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`. A bare
-// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
-// compile with `-Werror=missing-braces`.
+// number assigned, given as an argument or in an initialiser (`{50}`) does not compile.
 typedef struct MufasaTime {
+  union {
+    const struct MufasaBareNumber *no_bare_number;
   // Nanoseconds after the clock's start.
   int64_t ns;
+  };
 } MufasaTime;
 
-// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. Bare
-// numbers are as with MufasaTime.
+// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. A bare
+// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
+// compile with `-Werror=missing-braces`.
 typedef struct MufasaGap {
   // m, from the front edge of the CAV's rectangle to the nearest point of the leading vehicle, along
   // the reference path.
@@ -806,9 +795,9 @@ typedef struct MufasaInvalidInput {
 
 // The answer to one cycle.
 typedef struct MufasaReport {
-  // The verdict: to be compared with SAFE, as none of its values is 0.
-  MufasaVerdict verdict;
-  // What made the cycle unsafe.
+  // 1 when the cycle is safe, else 0: `if (report.safe)`.
+  uint32_t safe;
+  // What made the cycle unsafe; NONE of a safe one.
   MufasaFailedStage failed_stage;
   // Stages i to v.
   struct MufasaOutcome stages[5];
@@ -845,7 +834,7 @@ typedef struct MufasaEvent {
   uint32_t group;
   // Sum of MufasaGroup.
   uint32_t groups;
-  // Not 0: the cycle was safe. One that ended with the verdict ERROR was not.
+  // Not 0: the cycle was safe.
   uint32_t safe;
   // Id of the station, at least 1.
   int64_t station;
@@ -983,10 +972,10 @@ typedef struct MufasaMonitorInputs {
 } MufasaMonitorInputs;
 
 // The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
-// its next call.
+// its next call, which empties the lists.
 typedef struct MufasaDecision {
-  // The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
-  // has made every group local.
+  // Whether it is safe, and why not; the requester has been told. Anything but safe has made every group
+  // local.
   struct MufasaReport report;
   // Of a safe cycle the tracks of the station, while MOT is remote, they are current, and stage i ran: they were
   // compared with what the CAV sees; an object that is not among them may still exist. Else null, so while the CAV
@@ -1025,10 +1014,14 @@ struct MufasaTime mufasa_time_from_microseconds(int64_t microseconds);
 // As `mufasa_time_from_microseconds`, of milliseconds.
 MUFASA_MUST_USE struct MufasaTime mufasa_time_from_milliseconds(int64_t milliseconds);
 
-// As `mufasa_time_from_microseconds`, of seconds, to about the nearest nanosecond (doubles are coarser than
-// that from 104 days on); so is no number.
+// Writes the time so many seconds after the clock's start, to about the nearest nanosecond (doubles are coarser
+// than that from 104 days on). UNKNOWN_VALUE: no number, or beyond 2^63 ns; then the earliest time is written.
+//
+// # Safety
+// `time` is null or can be written to.
 MUFASA_MUST_USE
-struct MufasaTime mufasa_time_from_seconds(double seconds);
+MufasaStatus mufasa_time_from_seconds(double seconds,
+                                      struct MufasaTime *time);
 
 // So many metres from bumper to bumper.
 MUFASA_MUST_USE struct MufasaGap mufasa_gap_between_bumpers(double metres);
@@ -1069,7 +1062,7 @@ struct MufasaParameters mufasa_parameters_default(void);
 size_t mufasa_scratch_bytes(const struct MufasaCycle *cycle);
 
 // Decides one cycle. Unless `report` is null or misaligned it is always written; when the status
-// is not OK its verdict is ERROR. Use data of a cycle only when its verdict is SAFE, and tell the
+// is not OK it is not safe. Use data of a cycle only when it is safe, and tell the
 // requester of every other one as unsafe.
 //
 // # Safety
@@ -1219,7 +1212,7 @@ MufasaStatus mufasa_monitor_trajectory(struct MufasaMonitor *monitor,
 // Decides on the inputs and the last elements that were used, and tells the requester: to be called in
 // each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
 // the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
-// say) its verdict is ERROR, and every group is local as after any other unsafe cycle. Where `decision`
+// say) it is not safe, and every group is local as after any other unsafe cycle. Where `decision`
 // itself is null or misaligned, or `monitor` is, nothing has happened.
 //
 // # Safety
@@ -1257,6 +1250,15 @@ MufasaStatus mufasa_monitor_settings_problem(const struct MufasaMonitorSettings 
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_route_problem(const struct MufasaMonitor *monitor,
                                           struct MufasaInvalidInput *problem);
+
+// A MufasaStatus in words, which live as long as the program.
+MUFASA_MUST_USE const char *mufasa_status_text(uint32_t status);
+
+// A MufasaDropReason in words.
+MUFASA_MUST_USE const char *mufasa_drop_reason_text(uint32_t reason);
+
+// A MufasaActionType in words.
+MUFASA_MUST_USE const char *mufasa_action_text(uint32_t action_type);
 
 #ifdef __cplusplus
 }  // extern "C"

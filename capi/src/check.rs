@@ -42,7 +42,7 @@ pub unsafe extern "C" fn mufasa_scratch_bytes(cycle: *const MufasaCycle) -> usiz
 }
 
 /// Decides one cycle. Unless `report` is null or misaligned it is always written; when the status
-/// is not OK its verdict is ERROR. Use data of a cycle only when its verdict is SAFE, and tell the
+/// is not OK it is not safe. Use data of a cycle only when it is safe, and tell the
 /// requester of every other one as unsafe.
 ///
 /// # Safety

@@ -51,7 +51,7 @@ pub struct MufasaEvent {
     pub group: u32,
     /// Sum of MufasaGroup.
     pub groups: u32,
-    /// Not 0: the cycle was safe. One that ended with the verdict ERROR was not.
+    /// Not 0: the cycle was safe.
     pub safe: u32,
     /// Id of the station, at least 1.
     pub station: i64,

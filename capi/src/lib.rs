@@ -31,6 +31,7 @@ pub mod parameters;
 pub mod report;
 pub mod requester;
 pub mod status;
+pub mod text;
 pub mod time;
 pub mod version;
 

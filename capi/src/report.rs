@@ -6,19 +6,6 @@ use mufasa::report::{
     FailedStage, Input, InvalidInput, Outcome, Problem, Reason, Report, Rule, Stage, Witness,
 };
 
-/// The verdict. Compare it with SAFE: UNSAFE and ERROR are not 0 either, so that `if (report.verdict)` is taken
-/// for all of them. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MufasaVerdict {
-    /// Nothing was found.
-    Safe = 1,
-    /// `failed_stage` says where.
-    Unsafe = 2,
-    /// Invalid local input (`input` says what), or a call that failed. Treat it as unsafe.
-    Error = 3,
-}
-
 /// What made a cycle unsafe.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +26,8 @@ pub enum MufasaFailedStage {
     Input = 6,
     /// H-05: a trajectory that nothing compared with obstacles.
     NoObstacleCheck = 7,
+    /// Invalid local input (`input` says what), or a call that failed.
+    Error = 8,
 }
 
 /// What became of a stage.
@@ -179,9 +168,9 @@ pub struct MufasaInvalidInput {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaReport {
-    /// The verdict: to be compared with SAFE, as none of its values is 0.
-    pub verdict: MufasaVerdict,
-    /// What made the cycle unsafe.
+    /// 1 when the cycle is safe, else 0: `if (report.safe)`.
+    pub safe: u32,
+    /// What made the cycle unsafe; NONE of a safe one.
     pub failed_stage: MufasaFailedStage,
     /// Stages i to v.
     pub stages: [MufasaOutcome; 5],
@@ -213,8 +202,8 @@ const NOT_SCHEDULED: MufasaOutcome = MufasaOutcome {
 /// The report of a cycle that could not be checked, or of invalid local input.
 pub(crate) fn error(problem: Option<InvalidInput>) -> MufasaReport {
     MufasaReport {
-        verdict: MufasaVerdict::Error,
-        failed_stage: MufasaFailedStage::None,
+        safe: 0,
+        failed_stage: MufasaFailedStage::Error,
         stages: [NOT_SCHEDULED; 5],
         input: input(problem),
     }
@@ -223,10 +212,7 @@ pub(crate) fn error(problem: Option<InvalidInput>) -> MufasaReport {
 /// The report of a cycle that was checked.
 pub(crate) fn report_of(report: &Report) -> MufasaReport {
     MufasaReport {
-        verdict: match report.failed_stage {
-            None => MufasaVerdict::Safe,
-            Some(_) => MufasaVerdict::Unsafe,
-        },
+        safe: u32::from(report.failed_stage.is_none()),
         failed_stage: failed_stage(report.failed_stage),
         stages: report.stages.map(outcome),
         input: input(report.input),

@@ -12,7 +12,8 @@ pub enum MufasaStatus {
     NullPointer = 1,
     /// A pointer is not aligned for what it points to.
     Misaligned = 2,
-    /// A profile, configuration, group, set of groups or type of an event that does not exist.
+    /// A profile, configuration, group, set of groups or type of an event that does not exist; seconds that are
+    /// no time.
     UnknownValue = 3,
     /// The memory is smaller than the function that tells its size says, a number of things that it is
     /// to hold is 0, or what was given is longer than that.

@@ -1,13 +1,13 @@
-//! Times and gaps. To assign a bare number to one, or to give it as an argument, is an error in C and C++. An
-//! initialiser of the struct around it takes one when the inner braces are left out; `-Werror=missing-braces` finds
-//! that. (A constructor would forbid it in C++ alone, and would change how some compilers return the type.)
+//! Times and gaps. A bare number is neither: the header gives the time a first member that no number becomes.
 
 use mufasa::monitor::Time;
 
+use crate::memory::put;
+use crate::status::MufasaStatus;
+
 /// A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
 /// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`. A bare
-/// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
-/// compile with `-Werror=missing-braces`.
+/// number assigned, given as an argument or in an initialiser (`{50}`) does not compile.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MufasaTime {
@@ -15,8 +15,9 @@ pub struct MufasaTime {
     pub ns: i64,
 }
 
-/// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. Bare
-/// numbers are as with MufasaTime.
+/// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. A bare
+/// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
+/// compile with `-Werror=missing-braces`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MufasaGap {
@@ -62,12 +63,21 @@ pub extern "C" fn mufasa_time_from_milliseconds(milliseconds: i64) -> MufasaTime
     MufasaTime::or_earliest(Time::from_milliseconds(milliseconds))
 }
 
-/// As `mufasa_time_from_microseconds`, of seconds, to about the nearest nanosecond (doubles are coarser than
-/// that from 104 days on); so is no number.
+/// Writes the time so many seconds after the clock's start, to about the nearest nanosecond (doubles are coarser
+/// than that from 104 days on). UNKNOWN_VALUE: no number, or beyond 2^63 ns; then the earliest time is written.
+///
+/// # Safety
+/// `time` is null or can be written to.
 #[must_use]
 #[unsafe(no_mangle)]
-pub extern "C" fn mufasa_time_from_seconds(seconds: f64) -> MufasaTime {
-    MufasaTime::or_earliest(Time::from_seconds(seconds))
+pub unsafe extern "C" fn mufasa_time_from_seconds(
+    seconds: f64,
+    time: *mut MufasaTime,
+) -> MufasaStatus {
+    let made = Time::from_seconds(seconds);
+    let status = if made.is_ok() { MufasaStatus::Ok } else { MufasaStatus::UnknownValue };
+    // SAFETY: the caller's duty.
+    unsafe { put(time, MufasaTime::or_earliest(made)) }.map_or_else(|fault| fault, |()| status)
 }
 
 /// So many metres from bumper to bumper.

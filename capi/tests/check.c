@@ -63,7 +63,7 @@ static void verdicts(void) {
   struct scene s;
   set_up(&s);
   struct MufasaReport report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_SAFE);
+  EXPECT(report.safe);
   EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_NONE);
   EXPECT(report.stages[0].kind == MUFASA_OUTCOME_KIND_PASSED);
   EXPECT(report.stages[3].kind == MUFASA_OUTCOME_KIND_SKIPPED);
@@ -74,7 +74,7 @@ static void verdicts(void) {
   s.track_items[0].y = 1.1;
   s.track_items[0].x = 29;
   report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_UNSAFE);
+  EXPECT(!report.safe);
   EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_I);
   EXPECT(report.stages[0].witness.rule == MUFASA_RULE_MEAN_COST);
   EXPECT(report.stages[0].witness.compared[1] == 0.2);
@@ -110,7 +110,7 @@ static void verdicts(void) {
   s.cycle.lead = NULL;
   s.cycle.ego.speed = 0;
   report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_UNSAFE);
+  EXPECT(!report.safe);
   EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_NO_OBSTACLE_CHECK);
 }
 
@@ -120,14 +120,14 @@ static void invalid_input(void) {
   set_up(&s);
   s.track_items[0].vx = nan; /* remote */
   struct MufasaReport report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_UNSAFE);
+  EXPECT(!report.safe);
   EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_INPUT);
   EXPECT(strcmp(report.input.field, "tracks.items.vx") == 0);
   EXPECT(report.input.index == 0);
 
   s.cycle.ego.speed = nan; /* local goes first */
   report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
   EXPECT(strcmp(report.input.field, "ego.speed") == 0);
   EXPECT(report.input.index == -1);
   EXPECT(strlen(report.input.message) > 10);
@@ -159,10 +159,10 @@ static void history(void) {
   s.cycle.detection_history_len = 2;
   size_t enough = mufasa_scratch_bytes(&s.cycle);
   EXPECT(mufasa_check(&s.cycle, scratch, enough, &report) == MUFASA_STATUS_OK);
-  EXPECT(report.verdict == MUFASA_VERDICT_SAFE);
+  EXPECT(report.safe);
   lists[1].stamp = lists[0].stamp;
   report = checked(&s.cycle);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR && report.input.index == 1);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR && report.input.index == 1);
   EXPECT(strcmp(report.input.field, "detection_history.stamp_ns") == 0);
 }
 
@@ -188,15 +188,15 @@ static void indexes(void) {
   EXPECT(mufasa_detection_index_init(&s.detections, more, bytes, &kept[2]) == MUFASA_STATUS_OK);
   for (size_t len = 0; len <= 3; ++len) {
     EXPECT(mufasa_check_with(&s.cycle, kept, len, scratch, enough, &report) == MUFASA_STATUS_OK);
-    EXPECT(report.verdict == plain.verdict && report.failed_stage == plain.failed_stage);
+    EXPECT(report.safe == plain.safe && report.failed_stage == plain.failed_stage);
   }
   const double y = seen[5].y;
   seen[5].y = 1e300; /* not to be done: it shows what is read */
   EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
-  EXPECT(report.verdict == plain.verdict && checked(&s.cycle).verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.safe == plain.safe && checked(&s.cycle).failed_stage == MUFASA_FAILED_STAGE_ERROR);
   list.stamp.ns -= 1; /* another list in the same memory */
   EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
   EXPECT(mufasa_detection_index_init(&list, memory, bytes, kept) == MUFASA_STATUS_INVALID_LIST);
   EXPECT(kept[0] == NULL);
   seen[5].y = y;
@@ -208,7 +208,7 @@ static void indexes(void) {
          MUFASA_STATUS_MEMORY_TOO_SMALL);
   EXPECT(mufasa_check_with(&s.cycle, NULL, 1, scratch, enough, &report) ==
          MUFASA_STATUS_NULL_POINTER);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
   free(memory);
   free(more);
 }
@@ -224,17 +224,17 @@ static void faults_of_the_call(void) {
   for (size_t start = 0; start < 16; ++start) {
     memset(scratch, 0x55, sizeof scratch);
     EXPECT(mufasa_check(&s.cycle, scratch + start, enough, &report) == MUFASA_STATUS_OK);
-    EXPECT(report.verdict == MUFASA_VERDICT_SAFE);
+    EXPECT(report.safe);
     EXPECT(scratch[start + enough] == 0x55 && (start == 0 || scratch[start - 1] == 0x55));
   }
   for (size_t bytes = 0; bytes < enough - 64; bytes += 16) {
     memset(&report, 0, sizeof report);
     EXPECT(mufasa_check(&s.cycle, scratch, bytes, &report) == MUFASA_STATUS_MEMORY_TOO_SMALL);
-    EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+    EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
   }
   const MufasaStatus null = MUFASA_STATUS_NULL_POINTER;
   EXPECT(mufasa_check(NULL, scratch, sizeof scratch, &report) == null);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
   EXPECT(mufasa_check(&s.cycle, NULL, 100, &report) == null);
   EXPECT(mufasa_check(&s.cycle, scratch, sizeof scratch, NULL) == null);
   s.tracks.items = NULL;
@@ -250,7 +250,7 @@ static void faults_of_the_call(void) {
   set_up(&s);
   s.cycle.configuration = 0;
   EXPECT(mufasa_check(&s.cycle, scratch, sizeof scratch, &report) == MUFASA_STATUS_UNKNOWN_VALUE);
-  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
 }
 
 static struct MufasaRequester *requester;

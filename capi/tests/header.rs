@@ -1,7 +1,11 @@
 //! The committed header is the one that the sources give.
 
+use std::collections::BTreeSet;
+use std::ffi::{CStr, c_char};
 use std::fs;
 use std::path::Path;
+
+use mufasa_capi::text::{mufasa_action_text, mufasa_drop_reason_text, mufasa_status_text};
 
 /// The source of the structs of `src/parameters.rs`: cbindgen expands no macro.
 macro_rules! source {
@@ -40,7 +44,7 @@ const PARAMETERS: [&str; 2] =
     [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
 
 /// Those with what C sees, in the order of the header.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "status",
     "version",
     "time",
@@ -56,6 +60,7 @@ const SOURCES: [&str; 15] = [
     "monitor/place",
     "monitor/calls",
     "monitor/problem",
+    "text",
 ];
 
 #[test]
@@ -144,13 +149,25 @@ fn the_header_names_frame_reference_point_and_units() {
     }
 }
 
-/// None of its values is 0, so that each is true in C.
+/// A new status, reason or action without a text would be told as "unknown".
 #[test]
-fn the_header_says_that_a_verdict_is_compared_with_safe() {
+fn every_status_drop_reason_and_action_has_a_text() {
     let header = committed();
-    for what in ["enum MufasaVerdict\n", "  MufasaVerdict verdict;"] {
-        let (before, _) = header.split_once(what).expect(what);
-        let above = comment_before(before);
-        assert!(above.contains("with SAFE"), "{what}: {above:?}");
+    let mut told = Vec::new();
+    for (prefix, text) in [
+        ("  MUFASA_STATUS_", mufasa_status_text as extern "C" fn(u32) -> *const c_char),
+        ("  MUFASA_DROP_REASON_", mufasa_drop_reason_text),
+        ("  MUFASA_ACTION_TYPE_", mufasa_action_text),
+    ] {
+        let values = header.lines().filter(|line| line.starts_with(prefix));
+        let numbers = values.map(|line| line.split(['=', ',']).nth(1).expect(line).trim());
+        let numbers: Vec<u32> = numbers.map(|it| it.parse().expect("a number")).collect();
+        // SAFETY: the texts are constants that end with a 0.
+        let said = |number| unsafe { CStr::from_ptr(text(number)) }.to_str().expect("UTF-8");
+        assert!(numbers.len() >= 5 && said(u32::MAX) == "unknown" && said(99) == "unknown");
+        told.extend(numbers.into_iter().map(said));
     }
+    assert!(told.iter().all(|it| it.len() > 2 && *it != "unknown"), "{told:?}");
+    let differ: BTreeSet<_> = told.iter().collect();
+    assert_eq!(differ.len(), told.len(), "{told:?}");
 }

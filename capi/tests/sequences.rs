@@ -24,7 +24,7 @@ use mufasa_capi::monitor::{
     mufasa_monitor_settings_default, mufasa_monitor_state, mufasa_monitor_step,
     mufasa_monitor_tracks, mufasa_monitor_trajectory,
 };
-use mufasa_capi::report::{MufasaFailedStage, MufasaVerdict};
+use mufasa_capi::report::MufasaFailedStage;
 use mufasa_capi::requester::{MufasaGroupState, MufasaGroupStateKind, MufasaRequesterState};
 use mufasa_capi::status::MufasaStatus;
 use mufasa_capi::time::{MufasaGap, MufasaTime};
@@ -229,16 +229,17 @@ impl InC {
         let status = unsafe { mufasa_monitor_cycle(self.monitor, now, &raw const inputs, to) };
         // SAFETY: it is written whatever the status.
         let decision = unsafe { decision.assume_init() };
-        assert!(status == MufasaStatus::Ok || decision.report.verdict == MufasaVerdict::Error);
+        assert!(
+            status == MufasaStatus::Ok || decision.report.failed_stage == MufasaFailedStage::Error
+        );
         // SAFETY: null, or valid until the next call.
         let tracks = unsafe { decision.tracks.as_ref() };
         // SAFETY: as above.
         let trajectory = unsafe { decision.trajectory.as_ref() };
         let decided = Decided {
-            failed: match decision.report.verdict {
-                MufasaVerdict::Safe => Ok(MufasaFailedStage::None),
-                MufasaVerdict::Unsafe => Ok(decision.report.failed_stage),
-                MufasaVerdict::Error => Err(()),
+            failed: match decision.report.failed_stage {
+                MufasaFailedStage::Error => Err(()),
+                failed => Ok(failed),
             },
             tracks_ns: tracks.map(|it| it.stamp.ns),
             trajectory_ns: trajectory.map(|it| it.stamp.ns),

@@ -129,7 +129,7 @@ pub unsafe extern "C" fn mufasa_monitor_trajectory(
 /// Decides on the inputs and the last elements that were used, and tells the requester: to be called in
 /// each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
 /// the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
-/// say) its verdict is ERROR, and every group is local as after any other unsafe cycle. Where `decision`
+/// say) it is not safe, and every group is local as after any other unsafe cycle. Where `decision`
 /// itself is null or misaligned, or `monitor` is, nothing has happened.
 ///
 /// # Safety
@@ -150,7 +150,7 @@ pub unsafe extern "C" fn mufasa_monitor_cycle(
         return status;
     }
     // SAFETY: as above.
-    let monitor = match unsafe { required_mut(monitor) } {
+    let monitor = match unsafe { called(monitor) } {
         Ok(monitor) => monitor,
         Err(status) => return status,
     };
@@ -204,6 +204,17 @@ unsafe fn tell(
     }
 }
 
+/// The monitor in its next call, which ends what the last cycle gave.
+///
+/// # Safety
+/// As for [`mufasa_monitor_set_route`].
+unsafe fn called<'m>(monitor: *mut MufasaMonitor) -> Result<&'m mut MufasaMonitor, MufasaStatus> {
+    // SAFETY: the caller's duty.
+    let monitor = unsafe { required_mut(monitor) }?;
+    monitor.verdicts.forget();
+    Ok(monitor)
+}
+
 /// # Safety
 /// As for [`mufasa_monitor_set_route`].
 unsafe fn set_route(
@@ -213,7 +224,7 @@ unsafe fn set_route(
     // SAFETY: the caller's duty, here and below.
     let MufasaMonitor {
         monitor, most_cross_sections, scratch, scratch_bytes, route_problem, ..
-    } = unsafe { required_mut(monitor) }?;
+    } = unsafe { called(monitor) }?;
     *route_problem = None;
     // SAFETY: as above.
     let raw = unsafe { required(route) }?;
@@ -244,7 +255,7 @@ unsafe fn step(
     // SAFETY: the caller's duty, here and below.
     let event = event::event_of(unsafe { required(event) }?)?;
     // SAFETY: as above.
-    let monitor = &mut unsafe { required_mut(monitor) }?.monitor;
+    let monitor = &mut unsafe { called(monitor) }?.monitor;
     let now = Time::from_nanoseconds(event.t_ns);
     let actions = match event.kind {
         EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
@@ -273,7 +284,7 @@ unsafe fn tracks(
     raw: *const MufasaTrackMessage,
 ) -> Result<MufasaActions, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
-    let MufasaMonitor { monitor, tracks: received, .. } = unsafe { required_mut(monitor) }?;
+    let MufasaMonitor { monitor, tracks: received, .. } = unsafe { called(monitor) }?;
     // SAFETY: as above.
     let MufasaTrackMessage { station, session, generated, tracks } = unsafe { required(raw) }?;
     // SAFETY: as above.
@@ -294,7 +305,7 @@ unsafe fn trajectory(
     raw: *const MufasaTrajectoryMessage,
 ) -> Result<MufasaActions, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
-    let MufasaMonitor { monitor, trajectory: received, .. } = unsafe { required_mut(monitor) }?;
+    let MufasaMonitor { monitor, trajectory: received, .. } = unsafe { called(monitor) }?;
     // SAFETY: as above.
     let raw = unsafe { required(raw) }?;
     let MufasaTrajectoryMessage { station, session, generated, trajectory } = raw;

@@ -66,12 +66,12 @@ pub struct MufasaActions {
 }
 
 /// The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
-/// its next call.
+/// its next call, which empties the lists.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaDecision {
-    /// The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
-    /// has made every group local.
+    /// Whether it is safe, and why not; the requester has been told. Anything but safe has made every group
+    /// local.
     pub report: MufasaReport,
     /// Of a safe cycle the tracks of the station, while MOT is remote, they are current, and stage i ran: they were
     /// compared with what the CAV sees; an object that is not among them may still exist. Else null, so while the CAV
@@ -97,6 +97,11 @@ const NEVER: MufasaTime = MufasaTime { ns: i64::MAX };
 /// All are local.
 const EVERY_GROUP: u32 = MufasaGroup::Mot as u32 | MufasaGroup::Plan as u32;
 
+pub(super) const NO_LIST: MufasaTrackList =
+    MufasaTrackList { stamp: MufasaTime::EPOCH, items: null(), items_len: 0 };
+pub(super) const NO_TRAJECTORY: MufasaTrajectory =
+    MufasaTrajectory { stamp: MufasaTime::EPOCH, points: null(), points_len: 0 };
+
 /// Where verified data are for C to read.
 pub(super) struct Verdicts {
     pub(super) tracks: &'static mut [MufasaTrack],
@@ -117,6 +122,15 @@ impl Verdicts {
         let local = Group::ALL.into_iter().filter(is_local);
         let local_services = local.fold(0, |sum, group| sum | event::group_number(group) as u32);
         MufasaDecision { local_services, ..told }
+    }
+
+    /// What the last cycle gave ends with it: who kept a pointer finds empty lists, and numbers that are none.
+    pub(super) fn forget(&mut self) {
+        let tracks = self.tracks.iter_mut().take(self.track_list.items_len);
+        tracks.for_each(|it| (it.x, it.y) = (f64::NAN, f64::NAN));
+        let points = self.points.iter_mut().take(self.trajectory.points_len);
+        points.for_each(|it| (it.x, it.y) = (f64::NAN, f64::NAN));
+        (self.track_list, self.trajectory) = (NO_LIST, NO_TRAJECTORY);
     }
 
     fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {

@@ -12,7 +12,7 @@ use mufasa::monitor::{Memory, Monitor};
 use mufasa::offloading::requester::StationRecord;
 use mufasa::report::InvalidInput;
 
-use super::decision::Verdicts;
+use super::decision::{NO_LIST, NO_TRAJECTORY, Verdicts};
 use super::element::{NO_POINT, NO_TRACK, Received};
 use super::settings::{MufasaMonitorSettings, refused};
 use crate::cycle::{
@@ -179,8 +179,8 @@ pub(super) unsafe fn init(
     let verdicts = Verdicts {
         tracks: arena.keep((0..sizes.tracks).map(|_| c_track()))?,
         points: arena.keep((0..sizes.points).map(|_| c_point()))?,
-        track_list: MufasaTrackList { stamp: MufasaTime::EPOCH, items: null(), items_len: 0 },
-        trajectory: MufasaTrajectory { stamp: MufasaTime::EPOCH, points: null(), points_len: 0 },
+        track_list: NO_LIST,
+        trajectory: NO_TRAJECTORY,
     };
     let monitor = Monitor::new(settings.of_monitor()?, parts).map_err(refused)?;
     let (scratch, scratch_bytes) = arena.rest();

@@ -33,6 +33,11 @@ pub fn set(mode: Mode) {
     let _ = MODE.set(mode);
 }
 
+/// Whether the process says nothing of what it does.
+pub fn is_quiet() -> bool {
+    MODE.get() == Some(&Mode::Quiet)
+}
+
 /// A bar of so many steps; 0 where they are not known. The template is indicatif's, with `{left}` for
 /// the time that is left once that can be told.
 pub fn bar(steps: u64, template: &str) -> ProgressBar {

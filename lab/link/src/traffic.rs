@@ -59,7 +59,7 @@ impl Traffic {
 
     /// What the transport went through in all.
     pub(crate) fn health(&mut self, health: Health) {
-        let Health { shed, connections, last_error } = health;
+        let Health { shed, connections, last_error, connected: _ } = health;
         (self.shed, self.connections, self.last_error) = (shed, connections, last_error);
     }
 }

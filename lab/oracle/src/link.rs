@@ -9,8 +9,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use comfy_table::{Table, presets};
+use indicatif::ProgressBar;
+use mufasa_drives::check;
 use mufasa_drives::check::checked::IGNORED;
-use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, streams};
+use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, progress, streams};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
 use mufasa_link::run::{self, TAU_PERIODS, VehicleRun};
@@ -20,7 +22,8 @@ use mufasa_link::transport::amqp::Amqp;
 use mufasa_link::transport::channels::Hub;
 use mufasa_link::transport::disturbed::Disturbed;
 use mufasa_link::transport::{Address, Transport};
-use mufasa_link::vehicle::summary::{Spread, Summary, Tally};
+use mufasa_link::vehicle::log::{Entry, What};
+use mufasa_link::vehicle::summary::{Listener, Spread, Summary, Tally};
 use mufasa_model::offloading::requester;
 use mufasa_props::bridge;
 use mufasa_records::files;
@@ -33,8 +36,8 @@ use crate::parameters_file;
 /// What `dt_max` is above the period of the drive, unless a file of parameters says otherwise, ns.
 const JITTER_NS: i64 = 50_000_000;
 
-/// How long the first attempt to reach a broker is waited for.
-const FIRST_ATTEMPT: Duration = Duration::from_secs(2);
+/// How long the first attempt to reach a broker is waited for: RabbitMQ refuses a password after 3 s.
+const FIRST_ATTEMPT: Duration = Duration::from_secs(4);
 
 /// The station in the process of the vehicle.
 const STATION: i64 = 1;
@@ -55,12 +58,9 @@ pub fn vehicle(arguments: &VehicleArguments, stop: &AtomicBool, out: &mut impl W
         writeln!(out, "{raised}")?;
     }
     let run = VehicleRun { id: arguments.id, settings, laps: arguments.laps };
-    let mut tally = match &arguments.log {
-        Some(file) => Tally::logging_to(Box::new(LineWriter::new(
-            File::create(file).map_err(cannot(file, "written"))?,
-        ))),
-        None => Tally::default(),
-    };
+    let laps = usize::try_from(run.laps).unwrap_or(usize::MAX);
+    let bar = check::progress(driven.count().saturating_mul(laps));
+    let mut tally = Tally::heard_by(listener(arguments.log.as_deref(), bar.clone())?);
     let clock = SharedClock::new().map_err(said)?;
     let me = Address::Vehicle(arguments.id);
     let disturb = arguments.disturb.clone();
@@ -80,6 +80,7 @@ pub fn vehicle(arguments: &VehicleArguments, stop: &AtomicBool, out: &mut impl W
         let served = run::both(&run, station, plays, clock, channels, &mut tally, stop);
         Some(served.map_err(said)?)
     };
+    bar.finish_and_clear();
     let summary = tally.summary();
     write_json(arguments.json.as_deref(), &summary)?;
     writeln!(out, "{}", of_vehicle(&summary).trim_fmt())?;
@@ -176,6 +177,32 @@ fn raised_tau(driven: &Played, tau_s: f64) -> Option<String> {
 /// Refuses a file that cannot be written before the drive, not after it.
 fn prepare(file: Option<&Path>) -> Result<(), String> {
     file.map_or(Ok(()), |file| files::prepare_file(file).map_err(cannot(file, "written")))
+}
+
+/// Writes every entry into the log, says what changes on standard error, and moves the bar on by each cycle.
+fn listener(log: Option<&Path>, bar: ProgressBar) -> Result<Listener, String> {
+    let create = |file: &Path| File::create(file).map_err(cannot(file, "written"));
+    let mut log = log.map(create).transpose()?.map(LineWriter::new);
+    let mut began_ns = None;
+    Ok(Box::new(move |entry: &Entry| {
+        let began_ns = *began_ns.get_or_insert(entry.at_ns);
+        if let Some(change) = entry.what.change().filter(|_| !progress::is_quiet()) {
+            let ms = entry.at_ns.saturating_sub(began_ns) / 1_000_000;
+            let line = format!("{}.{} s: {change}", ms / 1_000, ms % 1_000 / 100);
+            bar.suspend(|| complain(&line));
+        }
+        if matches!(entry.what, What::Decided { .. }) {
+            bar.inc(1);
+        }
+        // A disk that is full ends the log, and not the drive.
+        let written = |log: &mut LineWriter<File>| -> std::io::Result<()> {
+            serde_json::to_writer(&mut *log, entry)?;
+            log.write_all(b"\n")
+        };
+        if log.as_mut().is_some_and(|log| written(log).is_err()) {
+            log = None;
+        }
+    }))
 }
 
 /// Says when the first attempt to reach the broker fails, or takes long; it is tried again and again.

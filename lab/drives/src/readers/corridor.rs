@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::CrossSection;
 
-use crate::geometry::{Point, distance};
+use crate::geometry::{Point, distance, dot, sub};
 use crate::readers::strip::Across;
 use crate::readers::surface::Surface;
 
@@ -66,6 +66,12 @@ impl Section {
             self.widths[side].pop();
         }
         could
+    }
+
+    /// Whether this one is so far ahead of another, m, in the direction of this one's lane.
+    pub(crate) fn is_ahead_of(&self, other: &Self, far: f64) -> bool {
+        let along = [self.line.left[1], -self.line.left[0]];
+        dot(sub(self.reference(), other.reference()), along) >= far
     }
 
     /// Whether two cross sections are too near each other to be two.

@@ -27,6 +27,8 @@ const CHANGE_MARGIN: f64 = 10.0;
 /// Lanes that are together for less than this on a side of a change are not driven into each
 /// other there, m.
 const TOGETHER_MIN: f64 = 1.0;
+/// Over a change of lane the reference path goes at least so far along the next lane, m.
+const AHEAD_MIN: f64 = 1.0;
 /// Way to lose the width of the corridor in, or to gain it, where two legs do not connect, m.
 const CLOSING: f64 = 0.1;
 
@@ -173,6 +175,15 @@ impl Course {
         let spacing = SPACING.max(2.0 * total / f64::from(SECTIONS_MAX));
         let mut sections: Vec<Section> = Vec::new();
         for (k, span) in self.spans.iter().enumerate() {
+            let mut span = *span;
+            // Both legs of a change have its place, by lines across that need not be parallel.
+            let is_back = |from: f64| {
+                let last = sections.last().filter(|_| span.reach[0] > 0.0 && from < span.to);
+                last.is_some_and(|it| !self.section(k, from - CLOSING).is_ahead_of(it, AHEAD_MIN))
+            };
+            while is_back(span.from) {
+                span.from += AHEAD_MIN / 2.0;
+            }
             if k > 0 && span.half[0] == 0.0 {
                 let [before, here] =
                     [self.section(k - 1, self.spans[k - 1].to), self.section(k, span.from)];

@@ -258,7 +258,7 @@ impl Reader {
         let position = self.position(element.get("position")?)?;
         let heading = self.value(element.get("orientation")?)?;
         let speed = match element.find("velocity") {
-            Some(e) => self.value(e)?,
+            Some(e) => element.velocity(self.value(e)?)?,
             None if is_static => 0.0,
             None => return Err(element.error("velocity", "this element is missing")),
         };

@@ -113,7 +113,7 @@ fn states(trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
             step,
             position: element.point()?,
             heading: element.get("orientation")?.number()?,
-            speed: element.get("velocity")?.number()?,
+            speed: element.velocity(element.get("velocity")?.number()?).map_err(|e| e.index(i))?,
             slip,
         };
         if states.last().is_some_and(|last| last.step + 1 != step) {

@@ -21,6 +21,8 @@ const ATTRIBUTES_MAX: usize = 256;
 const LIMIT: &str = "the most that is read; no CommonRoad file needs so many";
 /// Positions of `spec/4-arithmetic.md#domain`, m.
 const POSITION_MAX: f64 = 16_777_216.0;
+/// The domain of speeds (`spec/4-arithmetic.md`), m/s.
+const SPEED_MAX: f64 = 150.0;
 
 /// An element with all that is in it.
 #[derive(Default)]
@@ -323,6 +325,12 @@ impl<'a> Element<'a> {
         } else {
             Err(child.error("", format!("{number} is not within {low} and {high}")))
         }
+    }
+
+    /// The velocity of this element, if it is in the domain.
+    pub(crate) fn velocity(self, speed: f64) -> Result<f64, ReadError> {
+        let message = || format!("{speed} m/s is not within +-{SPEED_MAX} m/s");
+        (speed.abs() <= SPEED_MAX).then_some(speed).ok_or_else(|| self.error("velocity", message()))
     }
 
     /// The children x and y as a position.

@@ -10,7 +10,7 @@ use std::error::Error;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use fe2o3_amqp::connection::Connection;
+use fe2o3_amqp::connection::{Connection, OpenError};
 use fe2o3_amqp::link::receiver::CreditMode;
 use fe2o3_amqp::link::{Receiver, RecvError, Sender};
 use fe2o3_amqp::sasl_profile::SaslProfile;
@@ -18,6 +18,7 @@ use fe2o3_amqp::session::Session;
 use fe2o3_amqp::types::definitions::SenderSettleMode;
 use fe2o3_amqp::types::messaging::{Body, Data, Header, Message, Properties};
 use fe2o3_amqp::types::primitives::Value;
+use fe2o3_amqp::types::sasl::SaslCode;
 use tokio::net::TcpStream;
 use tokio::sync::mpsc;
 use tokio::time;
@@ -67,6 +68,12 @@ pub enum AmqpError {
         /// What was given.
         url: String,
     },
+    /// An address with TLS.
+    #[error(
+        "amqps: this program has no TLS; start a TLS tunnel to the broker, as scripts/link-tls does, and give the \
+         amqp://USER:PASSWORD@HOST:PORT of the tunnel"
+    )]
+    Tls,
     /// The system gives no thread or no sockets.
     #[error("no thread for the connection: {0}")]
     System(std::io::Error),
@@ -79,6 +86,9 @@ impl Amqp {
     /// Errors: an address that is none, a system without threads or sockets; a broker that cannot be
     /// reached is none, see [`Health::last_error`].
     pub fn new(url: &str, address: Address) -> Result<Self, AmqpError> {
+        if url.starts_with("amqps:") {
+            return Err(AmqpError::Tls);
+        }
         let parsed = Url::parse(url).ok().filter(|it| it.scheme() == "amqp" && it.has_host());
         let url = parsed.ok_or_else(|| AmqpError::Url { url: url.to_owned() })?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
@@ -128,7 +138,9 @@ impl Transport for Amqp {
 /// Connects again and again, until the other end of `sent` is dropped.
 async fn keep_connected(url: &Url, me: Address, inbox: &Queue, mut sent: mpsc::Receiver<Sent>) {
     while let Err(error) = connected(url, me, inbox, &mut sent).await {
-        inbox.note(|health| health.last_error = Some(error.to_string()));
+        inbox.note(|health| {
+            (health.connected, health.last_error) = (false, Some(error.to_string()))
+        });
         if sent.is_closed() {
             return;
         }
@@ -154,7 +166,7 @@ async fn connected(
         if let Ok(profile) = SaslProfile::try_from(url) {
             builder = builder.sasl_profile(profile);
         }
-        let mut connection = builder.open_with_stream(stream).await?;
+        let mut connection = builder.open_with_stream(stream).await.map_err(in_words)?;
         let mut session = Session::begin(&mut connection).await?;
         let sender = Sender::builder()
             .name("out")
@@ -179,7 +191,10 @@ async fn connected(
     };
     let opened = time::timeout(CONNECTED_WITHIN, opening).await??;
     let (mut connection, _session, mut sender, mut receivers) = opened;
-    inbox.note(|health| health.connections += 1);
+    inbox.note(|health| {
+        health.connected = true;
+        health.connections += 1;
+    });
     // What waited for the connection is old.
     while sent.try_recv().is_ok() {
         inbox.note(|health| health.shed += 1);
@@ -195,6 +210,16 @@ async fn connected(
         drop(time::timeout(AGAIN_AFTER, connection.close()).await);
     }
     left
+}
+
+/// Why a connection was not opened; who is refused is told so.
+fn in_words(error: OpenError) -> String {
+    match error {
+        OpenError::SaslError { code: SaslCode::Auth, .. } => {
+            "the broker refuses this user or password".to_owned()
+        }
+        error => error.to_string(),
+    }
 }
 
 /// Sends what is handed over, until nobody hands over anything any more.
@@ -250,6 +275,8 @@ mod tests {
             let error = Amqp::new(url, Address::Vehicle(1)).unwrap_err();
             assert!(error.to_string().contains("no address of a broker"), "{url}");
         }
+        let tls = Amqp::new("amqps://guest:secret@localhost", Address::Vehicle(1)).unwrap_err();
+        assert!(tls.to_string().contains("has no TLS"), "{tls}");
     }
 
     #[test]

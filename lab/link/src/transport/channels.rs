@@ -23,7 +23,7 @@ impl Hub {
     /// From now on what is sent to this address, or to all of its kind, arrives here as well.
     pub fn join(&self, address: Address) -> Channels {
         let inbox = Queue::default();
-        inbox.note(|health| health.connections = 1);
+        inbox.note(|health| (health.connected, health.connections) = (true, 1));
         self.with(|joined| joined.push((address, inbox.clone())));
         Channels { hub: self.clone(), inbox }
     }

@@ -49,6 +49,8 @@ impl fmt::Display for Address {
 /// What a transport went through.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Health {
+    /// Whether there is a connection now.
+    pub connected: bool,
     /// Messages that were thrown away because too many waited, or were too long.
     pub shed: u64,
     /// How often it was connected; one that needs no connection is so once.

@@ -5,11 +5,11 @@ use std::time::Instant;
 use mufasa::input::cycle::Trajectory;
 use mufasa::monitor::{Decision, Inputs, Verified};
 use mufasa::offloading::requester::Source;
-use mufasa::services::configuration::Group;
+use mufasa::services::configuration::{Configuration, Group};
 use mufasa_model::input::cycle::Cycle;
 use mufasa_props::bridge;
 
-use super::log::{What, digest};
+use super::log::{Follows, What, digest};
 use super::tell::Given;
 use super::{Vehicle, VehicleError, time, word};
 use crate::play::moved;
@@ -57,6 +57,7 @@ impl<T: Transport> Vehicle<'_, T> {
         };
         let is_safe = matches!(decision, Decision::Safe { .. });
         self.tally.decided(now_ns, self.next, configuration, is_safe, &report, took);
+        let follows = follows(&decision, configuration);
         if let Decision::Safe { tracks, trajectory, .. } = decision {
             let follow = |it: &Verified<'_, Trajectory<'_>>| digest(it.stamp_ns, it.points);
             let used = [
@@ -73,6 +74,29 @@ impl<T: Transport> Vehicle<'_, T> {
             self.tally.used(now_ns, self.played.period_ns(), used);
         }
         self.answered(now_ns, before, Ok(actions), "unsafe");
+        let control = Some((self.configuration(), follows));
+        if self.control != control {
+            self.control.clone_from(&control);
+            if let Some((configuration, follows)) = control {
+                let configuration = format!("{configuration:?}");
+                self.tally.note(now_ns, What::Control { configuration, follows });
+            }
+        }
         Ok(())
+    }
+}
+
+/// What control follows after a cycle that was decided in this configuration.
+fn follows(decision: &Decision<'_>, configuration: Configuration) -> Follows {
+    let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = decision;
+    match (brake, decision) {
+        (Some(_), _) => Follows::Brakes,
+        (None, Decision::Unsafe { .. }) => Follows::OwnPlan,
+        (None, Decision::Safe { trajectory: Some(it), .. }) => match it.source() {
+            Source::Remote { station } => Follows::Station(station),
+            Source::Local => Follows::OwnPlan,
+        },
+        (None, Decision::Safe { .. }) if configuration == Configuration::Local => Follows::OwnPlan,
+        (None, Decision::Safe { .. }) => Follows::LastVerified,
     }
 }

@@ -2,6 +2,7 @@
 //! safe verdict: told from the entries alone.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
@@ -43,10 +44,12 @@ pub enum What {
         /// Which session.
         session: i64,
     },
-    /// A session ended, for whatever reason.
+    /// A session ended.
     Left {
         /// The group.
         group: String,
+        /// Why, as the summary counts it.
+        why: String,
     },
     /// A result came.
     Arrived {
@@ -83,6 +86,76 @@ pub enum What {
         /// What it holds.
         digest: u64,
     },
+    /// From this cycle on control follows something else, or other groups are remote.
+    Control {
+        /// Which groups are remote.
+        configuration: String,
+        /// What control follows.
+        follows: Follows,
+    },
+    /// The connection was made, or has ended; the first entry says whether there is one.
+    Link {
+        /// Whether there is one.
+        connected: bool,
+        /// How often there was one.
+        connections: u64,
+        /// Why the last one failed or ended.
+        error: Option<String>,
+    },
+}
+
+/// What control follows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Follows {
+    /// The plan of the CAV's own planner.
+    OwnPlan,
+    /// The trajectory of this station.
+    Station(i64),
+    /// The last verified trajectory, along which it brakes in time: nothing current has come.
+    LastVerified,
+    /// Nothing: it brakes fully, since the CAV has no plan of its own that may be followed.
+    Brakes,
+}
+
+impl fmt::Display for Follows {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OwnPlan => f.write_str("control follows the CAV's own plan"),
+            Self::Station(station) => write!(f, "control follows station {station}"),
+            Self::LastVerified => {
+                f.write_str("control follows the last verified trajectory, and brakes in time")
+            }
+            Self::Brakes => f.write_str("control brakes"),
+        }
+    }
+}
+
+impl What {
+    /// What has changed by it, in words; `None` of what changes nothing, or is said by another entry.
+    pub fn change(&self) -> Option<String> {
+        match self {
+            Self::Began => Some("the vehicle begins".to_owned()),
+            Self::Left { group, why } => Some(format!("{group}: session left: {why}")),
+            Self::Decided { configuration, failed: Some(failed), .. }
+                if configuration != "Local" =>
+            {
+                Some(format!("fallback to Local: {failed} failed"))
+            }
+            Self::Control { configuration, follows } => Some(format!("{configuration}: {follows}")),
+            Self::Link { connected: true, connections: 1, .. } => Some("connected".to_owned()),
+            Self::Link { connected: true, .. } => Some("connected again".to_owned()),
+            Self::Link { connected: false, error, .. } => {
+                let why = error.as_deref().unwrap_or("no answer yet");
+                Some(format!("not connected, and tried again: {why}"))
+            }
+            Self::Requested { .. }
+            | Self::Confirmed { .. }
+            | Self::Arrived { .. }
+            | Self::Decided { .. }
+            | Self::Used { .. } => None,
+        }
+    }
 }
 
 /// A remote result that was used, and why it should not have been.
@@ -134,7 +207,7 @@ impl Coverage {
                     of_group.running = of_group.requested.take();
                 }
             }
-            What::Left { group } => {
+            What::Left { group, .. } => {
                 self.groups.remove(group);
             }
             What::Arrived { group, station, session, accepted, digest, .. } => {
@@ -149,6 +222,7 @@ impl Coverage {
             What::Used { group, station, digest } => {
                 return self.used(entry.at_ns, group, *station, *digest);
             }
+            What::Control { .. } | What::Link { .. } => {}
         }
         Ok(())
     }
@@ -267,7 +341,7 @@ mod tests {
             entries.insert(index, Entry { at_ns: 5, what });
             first_problem(&entries)
         };
-        assert_eq!(with(5, What::Left { group: MOT.to_owned() }), none);
+        assert_eq!(with(5, What::Left { group: MOT.to_owned(), why: "silent".to_owned() }), none);
         assert_eq!(with(5, What::Began), Some(Uncovered::NoDecision));
         let decided = |safe, configuration: &str| {
             let configuration = configuration.to_owned();

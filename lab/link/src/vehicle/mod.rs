@@ -26,12 +26,12 @@ use mufasa_props::lent::Lent;
 use mufasa_records::names;
 use thiserror::Error;
 
-use self::log::What;
+use self::log::{Follows, What};
 use self::summary::Tally;
 use self::tell::Measured;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
-use crate::transport::{Address, Transport};
+use crate::transport::{Address, Health, Transport};
 
 /// How long before its first decision a vehicle begins, ns.
 const BEFORE_THE_FIRST_NS: i64 = 100_000_000;
@@ -79,6 +79,10 @@ pub struct Vehicle<'a, T> {
     /// A message that was made after the time of the step in which it came: it came while the step ran, and
     /// is taken in the next one. What is still ahead then is taken for what it is.
     ahead: Option<Message>,
+    /// What control follows, and which groups are remote; none before the first cycle.
+    control: Option<(Configuration, Follows)>,
+    /// Whether there is a connection, and how many there were; none before the first cycle.
+    link: Option<(bool, u64)>,
 }
 
 impl<'a, T: Transport> Vehicle<'a, T> {
@@ -114,6 +118,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
             trajectory: None,
             heard: BTreeMap::new(),
             ahead: None,
+            control: None,
+            link: None,
         })
     }
 
@@ -162,6 +168,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         if now_ns < decided_ns {
             return Ok(Some(if self.is_sensed { decided_ns } else { sensed_ns }));
         }
+        self.look_at_link(now_ns);
         self.tick(now_ns);
         self.decide(now_ns, cycle, later_ns)?;
         self.next += 1;
@@ -266,8 +273,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
             if session(before).is_some() && session(before) != session(after) {
                 let is_asked = matches!(before, GroupState::Requested { .. });
                 let why = if is_asked && why == "silent" { "not confirmed" } else { why };
-                self.tally.left(why);
-                self.tally.note(now_ns, What::Left { group: word(group) });
+                self.tally.note(now_ns, What::Left { group: word(group), why: why.to_owned() });
             }
         }
         for action in &actions {
@@ -286,6 +292,14 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 // Counted with the reason where it came.
                 Action::Drop(_) => {}
             }
+        }
+    }
+
+    /// Notes a connection that was made or has ended.
+    fn look_at_link(&mut self, now_ns: i64) {
+        let Health { connected, connections, last_error: error, .. } = self.transport.health();
+        if self.link.replace((connected, connections)) != Some((connected, connections)) {
+            self.tally.note(now_ns, What::Link { connected, connections, error });
         }
     }
 

@@ -1,7 +1,6 @@
 //! What a vehicle counts while it drives, and what is said of it at the end.
 
 use std::fmt;
-use std::io::Write;
 use std::time::Duration;
 
 use mufasa::report::{InvalidInput, Report};
@@ -14,6 +13,9 @@ use serde::Serialize;
 use super::log::{Coverage, Entry, What};
 use crate::traffic::{Counts, Traffic, add};
 
+/// Hears every entry of the log.
+pub type Listener = Box<dyn FnMut(&Entry) + Send>;
+
 /// What is counted; over several lives of a vehicle.
 #[derive(Default)]
 pub struct Tally {
@@ -21,7 +23,7 @@ pub struct Tally {
     latencies_ns: [Vec<i64>; 2],
     monitor_ns: Vec<i64>,
     coverage: Coverage,
-    log: Option<Box<dyn Write + Send>>,
+    listener: Option<Listener>,
 }
 
 impl fmt::Debug for Tally {
@@ -101,9 +103,9 @@ impl Spread {
 }
 
 impl Tally {
-    /// Counts, and writes every entry of the log as a line of JSON.
-    pub fn logging_to(log: Box<dyn Write + Send>) -> Self {
-        Self { log: Some(log), ..Self::default() }
+    /// Counts, and lets every entry of the log be heard.
+    pub fn heard_by(listener: Listener) -> Self {
+        Self { listener: Some(listener), ..Self::default() }
     }
 
     /// What was counted so far.
@@ -133,10 +135,11 @@ impl Tally {
         if let Err(why) = self.coverage.take(&entry) {
             add(&mut self.summary.uncovered, &why.to_string());
         }
-        let Some(log) = &mut self.log else { return };
-        // A disk that is full ends the log, and not the drive.
-        if serde_json::to_writer(&mut *log, &entry).is_err() || log.write_all(b"\n").is_err() {
-            self.log = None;
+        if let What::Left { why, .. } = &entry.what {
+            add(&mut self.summary.left, why);
+        }
+        if let Some(listener) = &mut self.listener {
+            listener(&entry);
         }
     }
 
@@ -194,10 +197,6 @@ impl Tally {
             Group::Mot => mot.push(latency_ns),
             Group::Plan => plan.push(latency_ns),
         }
-    }
-
-    pub(super) fn left(&mut self, why: &str) {
-        add(&mut self.summary.left, why);
     }
 
     pub(super) fn local_services(&mut self, what: &str) {

@@ -3,4 +3,5 @@
 mod clean;
 mod faults;
 mod forged;
+mod told;
 mod world;

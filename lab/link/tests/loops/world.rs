@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::iter;
+use std::sync::{Arc, Mutex};
 
 use mufasa::monitor::Settings;
 use mufasa::services::configuration::Configuration;
@@ -105,6 +106,8 @@ pub struct Seen {
     pub changes: Vec<(i64, Configuration)>,
     /// At which times, ms since the start, the vehicle learned until when, in these ms, it asks no station.
     pub holds: Vec<(i64, i64)>,
+    /// What the vehicle says of what changes, with the time since the start, ms.
+    pub said: Vec<(i64, String)>,
 }
 
 impl Seen {
@@ -145,7 +148,13 @@ impl World {
         };
         let disturbances = self.disturbances.iter().map(|it| it.parse().expect("one")).collect();
         let mut of_vehicle = Disturbed::new(hub.join(Address::Vehicle(1)), disturbances);
-        let mut tally = Tally::default();
+        let said = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&said);
+        let mut tally = Tally::heard_by(Box::new(move |entry| {
+            let change = entry.what.change().map(|it| ((entry.at_ns - START_NS) / MS, it));
+            heard.lock().expect("no panic").extend(change);
+        }));
+        let said = || said.lock().expect("no panic").clone();
         let (mut changes, mut holds) = (vec![], vec![]);
         let mut station_summary = StationSummary::default();
         let mut ms = 0;
@@ -192,11 +201,18 @@ impl World {
                 station_summary = station.summary();
                 if has_ended {
                     let vehicle = tally.summary();
-                    return Seen { vehicle, station: station_summary, changes, holds };
+                    return Seen {
+                        vehicle,
+                        station: station_summary,
+                        changes,
+                        holds,
+                        said: said(),
+                    };
                 }
             }
             // Killed: it says nothing more, and nobody else remembers it.
         }
-        Seen { vehicle: tally.summary(), station: station_summary, changes, holds }
+        let vehicle = tally.summary();
+        Seen { vehicle, station: station_summary, changes, holds, said: said() }
     }
 }

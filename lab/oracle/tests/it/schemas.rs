@@ -124,7 +124,9 @@ fn the_summary_of_a_vehicle_is_what_its_schema_says() {
     assert_valid(&validators["vehicle-summary"], &parsed(&text));
     let log = fs::read_to_string(folder.join("log.jsonl")).expect("it was written");
     let entries: Vec<_> = log.lines().map(parsed).collect();
-    assert!(entries.iter().any(|it| it["what"] == "decided"), "{log}");
+    for what in ["decided", "control", "link"] {
+        assert!(entries.iter().any(|it| it["what"] == what), "{what}: {log}");
+    }
     for entry in entries {
         assert_valid(&validators["vehicle-log"], &entry);
     }

@@ -72,6 +72,12 @@ fn a_wrong_value_is_named_with_its_place() {
             "commonRoad/dynamicObstacle[7]/trajectory/state/time",
             "exact",
         ),
+        (
+            "<velocity><exact>10</exact></velocity>",
+            "<velocity><exact>1.7e7</exact></velocity>",
+            "commonRoad/dynamicObstacle[7]/initialState",
+            "velocity",
+        ),
         ("Obstacle id=\"8\"", "Obstacle id=\"7\"", "commonRoad", "id"),
     ];
     for (from, to, element, field) in cases {
@@ -115,6 +121,14 @@ fn a_vehicle_or_solution_that_does_not_fit_is_refused() {
         let error = one(&[scenario.clone(), path], &Options::default()).unwrap_err();
         assert_eq!(error.field, field, "{error}");
     }
+    let mut states = solution.split("<velocity>");
+    let (first, second) = (states.next().unwrap(), states.next().unwrap());
+    let (_, rest) = solution[first.len() + second.len()..].split_once("</velocity>").unwrap();
+    let text = format!("{first}<velocity>{second}<velocity>-150.1</velocity>{rest}");
+    let error = one(&[scenario.clone(), folder.write("o.xml", text)], &Options::default());
+    let error = error.unwrap_err();
+    assert_eq!((error.field.as_str(), error.index), ("velocity", Some(1)), "{error}");
+    assert!(error.message.contains("-150.1 m/s is not within +-150 m/s"), "{error}");
     let path = folder.write("o.xml", solution.replace("ksTrajectory", "inputVector"));
     let error = one(&[scenario, path], &Options::default()).unwrap_err();
     assert!(error.message.contains("KS, ST and MB"), "{error}");

@@ -23,14 +23,18 @@ fn left_lane(slope: f64) -> [[Point; 3]; 2] {
 
 /// The drive of a car along x at 10 m/s, in these places across the road every metre from x = 31.
 fn drive(slope: f64, across: &[f64]) -> Drive {
+    on_lanes([RIGHT_LANE, left_lane(slope)], across)
+}
+
+fn on_lanes([right, left]: [[[Point; 3]; 2]; 2], across: &[f64]) -> Drive {
     let lane = |id, [left, right]: [[Point; 3]; 2], side: &str, other: u32| {
         let links = format!("<adjacent{side} ref=\"{other}\" drivingDir=\"same\"/>");
         lanelet(id, [&left, &right], &links)
     };
     let places = (31_u32..).zip(across).map(|(x, y)| [f64::from(x), *y, 0.0]);
     let text = scenario(&[
-        lane(1, RIGHT_LANE, "Left", 2),
-        lane(2, left_lane(slope), "Right", 1),
+        lane(1, right, "Left", 2),
+        lane(2, left, "Right", 1),
         vehicle(7, "car", 10.0, places),
     ]);
     let options = Options { ego: Some(7), tail: Tail::Keep, ..Options::default() };
@@ -56,6 +60,35 @@ fn corridor(drive: &Drive) -> impl Iterator<Item = Point> + '_ {
             [0, 1].map(|i| u * a[i] + v * b[i] + w * c[i])
         })
     })
+}
+
+/// The sharpest turn of a reference path, degrees, and how long its shorter side is there, m.
+fn sharpest_turn(drive: &Drive) -> (f64, f64) {
+    let ways = sections(drive).windows(2).map(|w| [w[1].x - w[0].x, w[1].y - w[0].y]);
+    let ways: Vec<Point> = ways.collect();
+    let turn = |w: &[Point]| {
+        let (a, b) = (w[0], w[1]);
+        let angle = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs();
+        (angle.to_degrees(), a[0].hypot(a[1]).min(b[0].hypot(b[1])))
+    };
+    ways.windows(2).map(turn).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
+}
+
+/// Lines across lanes need not be square to them: then both legs of a change put its middle elsewhere.
+#[test]
+fn over_a_change_of_lane_the_reference_path_never_turns_back() {
+    let across: Vec<f64> =
+        (0..60).map(|i| f64::from((i - 19).clamp(0, 15)) * 3.5 / 15.0 - 1.75).collect();
+    for skew in [-3.0, -1.0, 0.0, 1.0, 3.0] {
+        let skewed = |[left, right]: [[Point; 3]; 2], by: f64| {
+            [left.map(|[x, y]| [if x == 60.0 { x + by } else { x }, y]), right]
+        };
+        let drive = on_lanes([skewed(RIGHT_LANE, skew), skewed(left_lane(0.0), skew)], &across);
+        assert!(drive.notes.iter().any(|note| note.contains("1 | lane change | 2")));
+        let (turn, side) = sharpest_turn(&drive);
+        assert!(turn < 45.0, "{turn:.0} degrees beside {side:.2} m, {skew}");
+        no_place_is_outside(&drive);
+    }
 }
 
 fn no_place_is_outside(drive: &Drive) {
