@@ -2,7 +2,6 @@
 
 use core::ffi::c_void;
 use core::mem::{align_of, size_of};
-use core::ptr::null;
 
 use mufasa::input::cycle::{CrossSection, Detection, Track, TrajectoryPoint};
 use mufasa::input::detection_index::Slot;

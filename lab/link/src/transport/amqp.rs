@@ -139,7 +139,7 @@ impl Transport for Amqp {
 async fn keep_connected(url: &Url, me: Address, inbox: &Queue, mut sent: mpsc::Receiver<Sent>) {
     while let Err(error) = connected(url, me, inbox, &mut sent).await {
         inbox.note(|health| {
-            (health.connected, health.last_error) = (false, Some(error.to_string()))
+            (health.connected, health.last_error) = (false, Some(error.to_string()));
         });
         if sent.is_closed() {
             return;
