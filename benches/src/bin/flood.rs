@@ -135,18 +135,18 @@ fn drop_of(
     now: Time,
     message: Message<&'static [Track]>,
 ) -> Option<DropReason> {
-    why(it.tracks(now, message).expect("a station").0)
+    why(&it.tracks(now, message).expect("a station").0)
 }
 
 fn points(it: &mut Monitor<'_>, now: Time, station: i64, session: i64) -> Option<DropReason> {
     let (generated, stamp) = (at(NOW_MS), at(NOW_MS));
     let message = Message { station, session, generated, stamp, items: &LONG };
-    why(it.trajectory(now, message).expect("a station").0)
+    why(&it.trajectory(now, message).expect("a station").0)
 }
 
-fn why<L>(arrival: Arrival<L>) -> Option<DropReason> {
+fn why<L>(arrival: &Arrival<L>) -> Option<DropReason> {
     match arrival {
         Arrival::Accepted(_) => None,
-        Arrival::Dropped { why } => Some(why),
+        Arrival::Dropped { why } => Some(*why),
     }
 }
