@@ -31,8 +31,8 @@ impl ToDo {
     }
 }
 
-/// Actions in the order in which they are to be taken. They count as taken when they are iterated over
-/// or indexed; a monitor takes no further call before.
+/// What has to be done, in this order. Iterate over it: the monitor's next call raises ``ActionsNotTaken``
+/// when there are some that nobody has looked at.
 #[pyclass(frozen, module = "mufasa")]
 pub struct Actions {
     to_do: Arc<ToDo>,

@@ -1,5 +1,8 @@
 //! One record checked by the implementation (`spec/5-interfaces.md#cycle`).
 
+use mufasa_drives::check::words;
+use mufasa_drives::pictures::{Content, picture};
+use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{InvalidInput, Report};
 use mufasa_props::bridge;
 use mufasa_records::answer::CycleAnswer;
@@ -18,6 +21,23 @@ pub fn check(
     record: Line,
     profile: Option<OneProfile>,
 ) -> PyResult<Bound<'_, PyAny>> {
+    let (id, _, report) = checked(py, &record, profile)?;
+    verdict(py, id, report)
+}
+
+/// The picture of a cycle, given as a line, as SVG. Errors: those of `check`.
+#[pyfunction]
+pub fn svg(py: Python<'_>, record: Line, profile: Option<OneProfile>) -> PyResult<String> {
+    let (title, cycle, report) = checked(py, &record, profile)?;
+    let subtitle = words::answer(&Ok(report.clone()));
+    Ok(picture(&Content { title, subtitle, cycle: &cycle, report: &report }))
+}
+
+fn checked(
+    py: Python<'_>,
+    record: &Line,
+    profile: Option<OneProfile>,
+) -> PyResult<(String, Cycle, Report)> {
     let (id, mut cycle) = mufasa_records::cycle_from_line(&record.0, 1).map_err(|error| {
         let (field, index, message) = (error.field, error.index, error.message);
         invalid(InvalidInput { field, index, message })
@@ -26,7 +46,7 @@ pub fn check(
         cycle.profile = profile.0;
     }
     let report = py.detach(|| bridge::check_impl(&cycle)).map_err(invalid)?;
-    verdict(py, id, report)
+    Ok((id, cycle, report))
 }
 
 /// The report as a `Verdict` of Python.

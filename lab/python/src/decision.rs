@@ -11,7 +11,8 @@ use crate::answers::verdict;
 use crate::errors::{UnsafeCycle, invalid};
 use crate::verified::{Call, Calls, VerifiedTracks, VerifiedTrajectory};
 
-/// The end of a cycle. It is true when the cycle was safe; only then it holds data.
+/// The end of a cycle, true when it was safe. The requester has been told: after an unsafe cycle no group is
+/// remote.
 #[pyclass(frozen, module = "mufasa")]
 pub struct Decision {
     pub call: Call,
@@ -91,25 +92,31 @@ impl Decision {
         self.safe()
     }
 
-    /// The tracks of the station, while MOT is remote and they are current.
+    /// The tracks of the station, while MOT is remote, they are current, and the CAV had current detections
+    /// to compare them with.
+    ///
+    /// Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on.
     #[getter]
     fn tracks(&self, py: Python<'_>) -> PyResult<Option<Py<VerifiedTracks>>> {
         Ok(self.data()?.tracks.as_ref().map(|it| it.clone_ref(py)))
     }
 
-    /// The trajectory that was checked, while a group is remote and it is current.
+    /// The trajectory that was checked, while a group is remote and it is current: that of the station, or
+    /// while MOT alone is remote that of the CAV's own planner. In Local nothing is checked.
+    ///
+    /// Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on.
     #[getter]
     fn trajectory(&self, py: Python<'_>) -> PyResult<Option<Py<VerifiedTrajectory>>> {
         Ok(self.data()?.trajectory.as_ref().map(|it| it.clone_ref(py)))
     }
 
-    /// Which stages ran, and what they found; `None` when local input is invalid.
+    /// What the stages found; None when local input is invalid.
     #[getter]
     fn report(&self, py: Python<'_>) -> Option<Py<PyAny>> {
         self.report.as_ref().map(|it| it.clone_ref(py))
     }
 
-    /// What local input is invalid.
+    /// What local input is invalid; then the cycle is unsafe.
     #[getter]
     fn error(&self, py: Python<'_>) -> Option<Py<PyAny>> {
         self.error.as_ref().map(|it| it.clone_ref(py))

@@ -25,11 +25,12 @@ mod verified;
 #[pyo3::pymodule]
 mod _native {
     use pyo3::prelude::*;
+    use pyo3::types::PyTuple;
 
     #[pymodule_export]
     use crate::actions::Actions;
     #[pymodule_export]
-    use crate::answers::check;
+    use crate::answers::{check, svg};
     #[pymodule_export]
     use crate::decision::Decision;
     #[pymodule_export]
@@ -43,6 +44,8 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let attacks = mufasa_drives::Attack::ON_DRIVES.map(mufasa_drives::Attack::name);
+        module.add("ATTACKS", PyTuple::new(module.py(), attacks)?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

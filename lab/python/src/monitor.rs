@@ -30,7 +30,17 @@ use crate::verified::{Calls, VerifiedTracks, VerifiedTrajectory};
 /// No CAV meets more stations; memory of 5 MB.
 const MOST_STATIONS: usize = 65_536;
 
-/// The monitor of one CAV: events go in, actions come out; remote data come out of `cycle` alone.
+/// The monitor of one CAV (``spec/monitor.md#monitor``): events go in, actions come out; remote data are
+/// handed in and are out of reach until ``cycle`` has checked them.
+///
+/// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of
+/// single defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by
+/// default, has to be above the period. ``sessions_before``: at least the last session of earlier lives, so
+/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536.
+///
+/// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when
+/// the one before gave actions that nobody has looked at, and ends what was verified before. An event that
+/// raises has changed nothing else. Not to be called by two threads at once.
 #[pyclass(module = "mufasa")]
 pub struct Monitor {
     place: Place,
@@ -81,7 +91,7 @@ impl Monitor {
         Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })
     }
 
-    /// From now on the CAV follows this route, of which a copy is kept.
+    /// From now on the CAV follows this route (``CrossSection``), of which a copy is kept.
     #[pyo3(signature = (cross_sections, *, closed = false))]
     fn set_route(
         &mut self,
@@ -97,7 +107,7 @@ impl Monitor {
         set.map_err(|problem| invalid(bridge::invalid_input_from_impl(&problem)))
     }
 
-    /// A station offers groups; this replaces its previous offer.
+    /// A station, at least 1, offers groups; this replaces its previous offer.
     fn offer(
         &mut self,
         py: Python<'_>,
@@ -161,7 +171,8 @@ impl Monitor {
         self.event(py, now, |monitor, now| Ok(monitor.tick(now)))
     }
 
-    /// Tracks of a station arrive; they are copied.
+    /// Tracks (``Track``) of a station arrive; they are copied. Used are those of the running session, in
+    /// time, and newer than the last; of others the actions have a ``Drop`` that says why.
     #[pyo3(signature = (now, *, station, session, generated, stamp, items))]
     fn tracks(
         &mut self,
@@ -183,7 +194,7 @@ impl Monitor {
         self.told(py, now.time, &to_do, why)
     }
 
-    /// A trajectory of a station arrives; it is copied.
+    /// As ``tracks``, for a trajectory (``TrajectoryPoint``).
     #[pyo3(signature = (now, *, station, session, generated, stamp, points))]
     fn trajectory(
         &mut self,
@@ -205,7 +216,11 @@ impl Monitor {
         self.told(py, now.time, &to_do, why)
     }
 
-    /// Decides on the inputs and tells the requester: to be called in each period, offloading or not.
+    /// Decides on what the CAV measured and what stations sent, and tells the requester: to be called in each
+    /// period, offloading or not. What is not given is missing.
+    ///
+    /// Raises ``UnreadableInputs`` when something is of the wrong kind; the monitor has fallen back then, at
+    /// ``now`` (of the wrong kind itself: at the time of the last call), and the error has the actions.
     #[pyo3(signature = (
         now, ego, *, detections = None, lead = None, grid = None, local_tracks = None,
         local_trajectory = None
@@ -237,7 +252,7 @@ impl Monitor {
 
     /// The same data or decision, if they are of this monitor's last call.
     ///
-    /// Errors: `OtherMonitor`, `Expired`.
+    /// Raises ``OtherMonitor`` or ``Expired``.
     fn own<'py>(&self, verified: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(it) = verified.cast::<VerifiedTrajectory>() {
             it.get().call.is_last_of(&self.calls)?;
@@ -276,10 +291,15 @@ impl Monitor {
         running.map(|it| class()?.call1((it.station, it.session))).transpose()
     }
 
-    /// The last session, for `sessions_before` of the next life.
+    /// The last session, for ``sessions_before`` of the next life.
     #[getter]
     fn sessions(&self) -> i64 {
         self.place.with_dependent(|_, monitor| monitor.requester().sessions())
+    }
+
+    fn __repr__(&self) -> String {
+        let (configuration, sessions) = (self.configuration(), self.sessions());
+        format!("Monitor(configuration={configuration:?}, sessions={sessions})")
     }
 
     /// No request is sent before this time; it stays when it has passed.

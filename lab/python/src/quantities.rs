@@ -7,7 +7,10 @@ use crate::arguments::{Metres, Microseconds, Milliseconds, Nanoseconds, Seconds}
 use crate::errors::{invalid, wrong};
 use crate::items;
 
-/// A point in time on the CAV's one monotonic clock.
+/// A point in time on the CAV's one monotonic clock: the same clock for all that reaches one monitor, stamps
+/// of stations included. A bare number is not a time.
+///
+/// What does not fit into 64 bits of nanoseconds raises ``InvalidInput``.
 #[pyclass(frozen, eq, ord, hash, from_py_object, module = "mufasa")]
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Time {
@@ -39,7 +42,7 @@ impl Time {
         of(NativeTime::from_milliseconds(ms.0))
     }
 
-    /// So many seconds after the clock's start, to about the nearest nanosecond.
+    /// To about the nearest nanosecond.
     #[staticmethod]
     fn from_seconds(seconds: Seconds) -> PyResult<Self> {
         of(NativeTime::from_seconds(seconds.0))
@@ -51,12 +54,21 @@ impl Time {
         self.time.as_nanoseconds()
     }
 
+    /// To the nearest microseconds, which is what ``timedelta`` has; exact are ``nanoseconds``.
+    fn __sub__<'py>(&self, py: Python<'py>, value: Self) -> PyResult<Bound<'py, PyAny>> {
+        let ns = |time: &Self| i128::from(time.time.as_nanoseconds());
+        let zero = py.import("datetime")?.getattr("timedelta")?.call0()?;
+        let microsecond = zero.getattr("resolution")?;
+        microsecond.mul(ns(self) - ns(&value))?.div(1_000)
+    }
+
     fn __repr__(&self) -> String {
         format!("Time.from_nanoseconds({})", self.time.as_nanoseconds())
     }
 }
 
-/// The gap to the leading vehicle, bumper to bumper along the reference path.
+/// The free distance along the reference path to the leading vehicle, bumper to bumper. A bare number is no
+/// gap: measured from elsewhere it is wrong by metres.
 #[pyclass(frozen, eq, from_py_object, module = "mufasa")]
 #[derive(Clone, Copy, PartialEq)]
 pub struct Gap {
@@ -65,13 +77,13 @@ pub struct Gap {
 
 #[pymethods]
 impl Gap {
-    /// Measured from the CAV's front bumper to the rear bumper of the leading vehicle, m.
+    /// From the CAV's front bumper to the rear bumper of the leading vehicle.
     #[staticmethod]
     fn between_bumpers(metres: Metres) -> Self {
         Self { gap: NativeGap::between_bumpers(metres.0) }
     }
 
-    /// Measured from the CAV's reference point to the rear bumper of the leading vehicle, m.
+    /// From the CAV's reference point (``ego.x``, ``ego.y``) to that rear bumper.
     #[staticmethod]
     fn from_reference_point(metres: Metres, ego: &Bound<'_, PyAny>) -> PyResult<Self> {
         let ego = items::item(ego, "ego").map_err(invalid)?;

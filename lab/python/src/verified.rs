@@ -5,6 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::monitor::{Time as NativeTime, Verified};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
@@ -103,23 +105,51 @@ macro_rules! verified {
                 PyList::new(py, items?)
             }
 
+            /// For numpy: a structured array, or with a ``dtype`` of numbers a plain N x k one.
+            #[pyo3(signature = (dtype = None, copy = None))]
+            fn __array__<'py>(
+                &self,
+                py: Python<'py>,
+                dtype: Option<Bound<'py, PyAny>>,
+                copy: Option<bool>,
+            ) -> PyResult<Bound<'py, PyAny>> {
+                if copy == Some(false) {
+                    return Err(PyValueError::new_err("verified data are copied"));
+                }
+                let items = self.$items(py)?;
+                let kind = |name| (name, if matches!(name, "id" | "t_ns") { "i8" } else { "f8" });
+                let columns = || [$(stringify!($field)),*].map(kind).into_bound_py_any(py);
+                let dtype = dtype.map_or_else(columns, Ok)?;
+                py.import("numpy")?.call_method1("array", (items, dtype))
+            }
+
+            fn __repr__(&self) -> String {
+                let (name, count) = (stringify!($name), self.items.len());
+                match self.call.is_last() {
+                    Ok(()) => format!("{name}({count} {}, station={})", stringify!($items), self.station),
+                    Err(_) => format!("{name}(expired)"),
+                }
+            }
+
             $($($method)*)?
         }
     )*};
 }
 
 verified! {
-    /// Tracks of a station that a safe cycle has checked.
+    /// Tracks of a station that a safe cycle has compared with what the CAV sees. Everything raises
+    /// ``Expired`` from the monitor's next call on.
     VerifiedTracks of TrackList { items: Track(id, x, y, cos, sin, vx, vy, length, width) }
 
-    /// A trajectory that a safe cycle has checked.
+    /// A trajectory that a safe cycle has checked: what control follows should take nothing else. Everything
+    /// raises ``Expired`` from the monitor's next call on.
     VerifiedTrajectory of Trajectory {
         points: TrajectoryPoint(t_ns, x, y, cos, sin)
         {
             brake_by: Option<Time>;
 
-            /// By when control has to brake along it, unless a later cycle has given one or there is a plan of
-            /// the CAV's own.
+            /// By when control has to brake along it, with ``a_b``, unless a later cycle has given one or
+            /// there is a plan of the CAV's own: what was examined covers no more. None in the paper profile.
             #[getter]
             fn brake_by(&self) -> PyResult<Option<Time>> {
                 self.call.is_last().map(|()| self.brake_by)

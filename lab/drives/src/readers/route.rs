@@ -178,8 +178,8 @@ impl Course {
             let mut span = *span;
             // Both legs of a change have its place, by lines across that need not be parallel.
             let is_back = |from: f64| {
-                let last = sections.last().filter(|_| span.reach[0] > 0.0 && from < span.to);
-                last.is_some_and(|it| !self.section(k, from - CLOSING).is_ahead_of(it, AHEAD_MIN))
+                let last = sections.last().filter(|_| span.half[0] > 0.0 && from < span.to);
+                last.is_some_and(|it| !self.section(k, from).is_ahead_of(it, AHEAD_MIN))
             };
             while is_back(span.from) {
                 span.from += AHEAD_MIN / 2.0;

@@ -17,6 +17,7 @@ from ._errors import (
     UnsafeCycle,
 )
 from ._native import (
+    ATTACKS,
     Actions,
     Decision,
     Gap,
@@ -59,6 +60,7 @@ __all__ = [
     "Actions",
     "ActionsNotTaken",
     "Activate",
+    "ATTACKS",
     "check",
     "Configuration",
     "CrossSection",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from . import _native
@@ -23,7 +23,7 @@ def check(record: Record | str, profile: Profile | None = None) -> Verdict:
     input. Remote data that are invalid make the cycle unsafe.
     """
     text = record if isinstance(record, str) else json.dumps(_plain(record))
-    return _native.check(text, profile)
+    return replace(_native.check(text, profile), _checked=(text, profile))
 
 
 def _plain(value: Any) -> Any:

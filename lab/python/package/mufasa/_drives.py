@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Sequence
+from html import escape
+from importlib import import_module
 from typing import Any, overload
 
 from . import _native
+from ._check import check
 from ._types import Configuration, Profile
 
 
@@ -39,10 +42,33 @@ class Drive(Sequence[dict[str, Any]]):
 
     def attacked(self, attack: str) -> Drive:
         """The same drive under an attack, as ``mufasa check --inject`` names it, such as
-        ``empty-tracks@2..5`` (seconds). Its cycles are made at once, and kept.
+        ``empty-tracks@2..5`` (seconds; ``ATTACKS`` has the names). Its cycles are made at once, and kept.
 
         Raises ``InvalidInput`` when that is no attack, or changes nothing."""
         return Drive(self._stream.attacked(attack))
+
+    def to_frame(self) -> Any:
+        """A ``pandas.DataFrame`` with a row for each cycle: its time, the CAV, how much is around it, the lead,
+        and the verdict. Needs pandas."""
+        return import_module("pandas").DataFrame([_row(line) for line in self.lines()])
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the way of the CAV between the bounds of its route into matplotlib's ``axes``, new ones if none
+        are given, which are returned. Needs matplotlib."""
+        axes = axes or import_module("matplotlib.pyplot").subplots()[1]
+        records = list(self)
+        for side in ("left", "right"):
+            axes.plot(*zip(*(it[side] for it in records[0]["route"]["stations"])), color="grey")
+        axes.plot(*zip(*((it["ego"]["x"], it["ego"]["y"]) for it in records)), label=self.name)
+        axes.set_aspect("equal")
+        return axes
+
+    def __repr__(self) -> str:
+        return f"Drive({self.name!r}, {len(self)} cycles)"
+
+    def _repr_html_(self) -> str:
+        notes = "".join(f"<li>{escape(note)}</li>" for note in self.notes)
+        return f"<p>{escape(repr(self))} of {escape(self.source)}</p><ul>{notes}</ul>"
 
     def __len__(self) -> int:
         return self._stream.count
@@ -62,6 +88,21 @@ class Drive(Sequence[dict[str, Any]]):
     def _record(self, place: int) -> dict[str, Any]:
         record: dict[str, Any] = json.loads(self._stream.line(place))
         return record
+
+
+def _row(line: str) -> dict[str, Any]:
+    record, verdict = json.loads(line), check(line)
+    ego, lead = record["ego"], record["lead"] or {}
+    return {
+        "id": record["id"],
+        "t_s": record["now_ns"] / 1e9,
+        **{name: ego[name] for name in ("x", "y", "speed")},
+        **{name: len((record[name] or {"items": ()})["items"]) for name in ("detections", "tracks")},
+        "lead_gap": lead.get("gap"),
+        "lead_speed": lead.get("speed"),
+        "safe": verdict.safe,
+        "failed_stage": verdict.failed_stage,
+    }
 
 
 def read_drives(

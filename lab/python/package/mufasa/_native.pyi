@@ -25,6 +25,7 @@ from ._types import (
 from ._verdict import Verdict
 
 __all__ = [
+    "ATTACKS",
     "Actions",
     "Decision",
     "Gap",
@@ -36,10 +37,14 @@ __all__ = [
     "__version__",
     "check",
     "streams",
+    "svg",
 ]
 
 __version__: str
 
+ATTACKS: tuple[str, ...]
+
+def svg(record: str, profile: Profile | None) -> str: ...
 def check(record: str, profile: Profile | None) -> Verdict: ...
 def streams(
     paths: list[str],
@@ -83,6 +88,10 @@ class Time:
 
     @property
     def nanoseconds(self) -> int: ...
+    def __sub__(self, value: Time, /) -> timedelta:
+        """To the nearest microseconds, which is what ``timedelta`` has; exact are ``nanoseconds``."""
+
+    def __rsub__(self, value: Time, /) -> timedelta: ...
     def __hash__(self) -> int: ...
     def __eq__(self, value: object, /) -> bool: ...
     def __lt__(self, value: Time, /) -> bool: ...
@@ -126,12 +135,16 @@ class VerifiedTracks:
 
     @property
     def stamp(self) -> Time:
-        """The time that they are valid for."""
+        """When it was made, or what it is valid for."""
 
     @property
-    def station(self) -> int: ...
+    def station(self) -> int:
+        """The station that it comes from; 0 is the CAV."""
+
     @property
     def items(self) -> list[Track]: ...
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        """For numpy: a structured array, or with a ``dtype`` of numbers a plain N x k one."""
 
 @final
 class VerifiedTrajectory:
@@ -140,14 +153,17 @@ class VerifiedTrajectory:
 
     @property
     def stamp(self) -> Time:
-        """When it was made."""
+        """When it was made, or what it is valid for."""
 
     @property
     def station(self) -> int:
-        """The station that planned it; 0 is the CAV."""
+        """The station that it comes from; 0 is the CAV."""
 
     @property
     def points(self) -> list[TrajectoryPoint]: ...
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        """For numpy: a structured array, or with a ``dtype`` of numbers a plain N x k one."""
+
     @property
     def brake_by(self) -> Time | None:
         """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or there is a

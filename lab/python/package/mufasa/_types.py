@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Union
 
-if TYPE_CHECKING:
-    from ._native import Gap, Time
+from ._native import Gap, Time
 
 Profile = Literal["paper", "hardened"]
 Configuration = Literal["Local", "MotRemote", "AllRemote", "PlanRemote"]
@@ -105,14 +104,24 @@ class Detections(NamedTuple):
     """Of ``Detection``."""
 
 
-class Lead(NamedTuple):
-    """The leading vehicle."""
-
+class _Lead(NamedTuple):
     stamp: Time
-    """When it was measured."""
     gap: Gap
     speed: float
-    """Along the path, at least 0, m/s."""
+
+
+class Lead(_Lead):
+    """The leading vehicle: when it was measured, the gap, and its speed along the path, at least 0, m/s.
+
+    Raises ``TypeError`` for a bare number as time or gap."""
+
+    __slots__ = ()
+
+    def __new__(cls, stamp: Time, gap: Gap, speed: float) -> Lead:
+        for name, value, kind in (("stamp", stamp, Time), ("gap", gap, Gap)):
+            if not isinstance(value, kind):
+                raise TypeError(f"lead.{name} must be a mufasa.{kind.__name__}, not {value!r}")
+        return super().__new__(cls, stamp, gap, speed)
 
 
 class Tracks(NamedTuple):

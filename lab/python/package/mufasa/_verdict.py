@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any, Literal, TypedDict
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
+
+from . import _native
+
+if TYPE_CHECKING:
+    from ._types import Profile
 
 Stage = Literal["i", "ii", "iii", "iv", "v"]
 FailedStage = Literal["input", "i", "ii", "iii", "iv", "v", "no_obstacle_check"]
@@ -44,9 +49,21 @@ class Verdict:
     input: InputProblem | None
     """When the failed stage is ``input``."""
     stages: Mapping[Stage, StageOutcome]
+    _checked: tuple[str, Profile | None] | None = field(default=None, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         return self.safe
+
+    def to_svg(self) -> str:
+        """A picture of the cycle from above, with what failed in a strong colour.
+
+        Raises ``ValueError`` for a verdict of a monitor, which does not keep its inputs."""
+        if self._checked is None:
+            raise ValueError("only what check() decided has a picture; a monitor keeps no inputs")
+        return _native.svg(*self._checked)
+
+    def _repr_svg_(self) -> str | None:
+        return None if self._checked is None else self.to_svg()
 
 
 def of_answer(line: str) -> Verdict:
