@@ -3,6 +3,7 @@
 //! to it, or is asked behind it.
 
 pub mod order;
+pub mod steps;
 
 use crate::cycle::order::{Turn, decide, schedule};
 use crate::hardened::detection_history::{DetectionHistory, Seen};

@@ -2,6 +2,7 @@
 
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Detection, Track, TrackList};
 use crate::input::scratch::{Column, Row};
 use crate::numbers::range::larger;
@@ -41,6 +42,8 @@ pub(crate) struct Lists<'m, 'c, 'a> {
     pasts: [Option<Past<'c>>; 4],
     /// By squares, once they are needed.
     squares: [Option<Squares<'c>>; 4],
+    /// What was done with them, and with what they show.
+    pub(crate) work: Work,
 }
 
 impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
@@ -60,7 +63,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 });
             }
         }
-        Self { cycle, history, pasts, squares: [None; 4] }
+        Self { cycle, history, pasts, squares: [None; 4], work: Work::new(&cycle.parameters) }
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -118,7 +121,11 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     ) -> bool {
         let reach = self.stands_within();
         let [before_x, before_y] = before;
-        let mut alone = true;
+        if self.work.is_too_much() {
+            // The stage fails anyhow.
+            return true;
+        }
+        let (mut alone, mut items) = (true, 0);
         for (list, squares) in self.squares.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
             if list == place {
@@ -132,12 +139,15 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             let near = [around(now.x + dx), around(now.y + dy)];
             squares.for_each_in(columns, near, |_, [item_x, item_y]| {
                 let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
+                items = u64::saturating_add(items, 1);
                 supported |= x * x + y * y <= reach * reach;
             });
             if supported {
-                return true;
+                alone = true;
+                break;
             }
         }
+        self.work.add_support(items);
         alone
     }
 }

@@ -4,11 +4,13 @@
 //! `spot` unless it is close, else with error bounds; that an object comes across the CAV, follows it or keeps
 //! beside it only when it is sure.
 
+use crate::cycle::steps::{BOX, MOTION, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
 use crate::hardened::h14_fail_safe::spot::Spot;
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -121,7 +123,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
     /// The first place where the object may meet the CAV, if that is before the place with that number, and
     /// the object is examined. Until then each place counts that is close, so that their number does not
     /// depend on what was found before.
-    pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
+    pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
         let (object, exact) = (self.plainly(motion), Exact::new(self.cycle(), motion));
         let Self { nodes, trajectory, ego, aside, clock, covers, route, places, close } = self;
         let places = places.get_or_insert_with(|| {
@@ -130,7 +132,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
             let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
             Places { path, points, ego: *ego, starts, beside }
         });
-        let boxes = (&*covers, &*clock);
+        let boxes = (&*covers, &*clock, work);
         let meets =
             |place: &Place| places.meets(place, (&object, &exact), clock, close).transpose();
         let met = places.first(&object, boxes, meets)?.ok()?;
@@ -151,6 +153,9 @@ fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Pieces<'a>>; MOST
     starts
 }
 
+/// What lies around all places, when, and what looking there has taken.
+type Boxes<'b> = (&'b Covers, &'b Clock, &'b Work);
+
 /// The CAV at the places, with error bounds.
 struct Places<'c, 'a> {
     path: Path<'c, 'a>,
@@ -170,9 +175,10 @@ impl<'c, 'a> Places<'c, 'a> {
     fn first<T>(
         &self,
         object: &Object,
-        (covers, clock): (&Covers, &Clock),
+        (covers, clock, work): Boxes<'_>,
         mut find: impl FnMut(&Place) -> Option<T>,
     ) -> Option<T> {
+        work.add(MOTION);
         let mut done = 0;
         self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
             let [first, last] = stretch.lines;
@@ -183,8 +189,14 @@ impl<'c, 'a> Places<'c, 'a> {
             done = last.saturating_add(1);
             let pieces = start.clone()?.take(done.saturating_sub(first));
             pieces.skip(from.saturating_sub(first)).find_map(|piece| {
-                let misses = |run| self.run(&piece, run, clock).misses(object, clock);
-                piece.first_place(misses, &mut find)
+                let misses = |run| {
+                    work.add(BOX);
+                    self.run(&piece, run, clock).misses(object, clock)
+                };
+                piece.first_place(misses, |place| {
+                    work.add(PLACE);
+                    find(place)
+                })
             })
         })
     }
@@ -232,7 +244,7 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
-    fn is_exempt(&mut self, (object, exact): (&Object, &Exact), boxes: (&Covers, &Clock)) -> bool {
+    fn is_exempt(&mut self, (object, exact): (&Object, &Exact), boxes: Boxes<'_>) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), exact.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
@@ -246,13 +258,13 @@ impl<'c, 'a> Places<'c, 'a> {
             let (until, comes_towards) =
                 (self.until_yielded(speed), across.certainly_at_most(-along));
             let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
-            self.beside.keeps(&passing) && !self.may_lie_across(&now, &object.standing(from), boxes)
+            self.beside.keeps(&passing, boxes.2) && !self.may_lie_across(&now, &object.standing(from), boxes)
         }
     }
 
     /// Whether an object may share a point with the CAV at some place, where it is now; `plainly`: the same
     /// in plain doubles.
-    fn may_lie_across(&self, now: &Rectangle, plainly: &Object, boxes: (&Covers, &Clock)) -> bool {
+    fn may_lie_across(&self, now: &Rectangle, plainly: &Object, boxes: Boxes<'_>) -> bool {
         let touches = |place: &Place| {
             let is_clear = Spot::new(&self.ego, place).is_clear_of(&plainly.at);
             let exactly = || !possibly_touch(&footprint(&self.ego, &place.pose), now);

@@ -6,6 +6,7 @@
 //! explained detection is disputed is asked late, of a pair that boxes let meet it (`disputed`, with what
 //! it costs).
 
+use crate::cycle::steps::{MOTION, PAIR};
 use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
@@ -102,10 +103,14 @@ impl Motions<'_, '_, '_> {
         let end = self
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
-        if !self.meeting.may_be_met(motion) || self.meeting.close.are_too_many() || !counts(self) {
+        self.lists.work.add(MOTION);
+        let is_over = self.lists.work.is_too_much() || self.meeting.close.are_too_many();
+        if is_over || !self.meeting.may_be_met(motion) || !counts(self) {
             return;
         }
-        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end) {
+        if let Some(Met { number, point, ways }) =
+            self.meeting.first(motion, end, &self.lists.work)
+        {
             let found = Witness::of(Rule::FailSafe, ways).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });
         }
@@ -137,6 +142,7 @@ impl Motions<'_, '_, '_> {
         };
         let rate = 1.0 / usable.age;
         squares.for_each_in(scratch.columns, around, |item, before| {
+            self.lists.work.add(PAIR);
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = now.coming_from(before, usable.age_ns, rate);
             if x * x + y * y <= reach * reach {
@@ -167,6 +173,7 @@ impl Motions<'_, '_, '_> {
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
         squares.for_each_in(scratch.columns, area, |item, before| {
+            self.lists.work.add(PAIR);
             let (x, y) = (now.x - before[0], now.y - before[1]);
             if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
                 return;
