@@ -68,8 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let crowd: Vec<_> = places(size, 1e-3).zip(0..).map(|(y, id)| track(id, -1.0, y)).collect();
     // They look like one place to every index, as there is one thing far off.
     let far = std::iter::once(detection(1e5, 1e5));
-    let row: Vec<_> =
-        places(2 * size - 1, 1e-4).map(|x| detection(x, 0.0)).chain(far).collect();
+    let row: Vec<_> = places(2 * size - 1, 1e-4).map(|x| detection(x, 0.0)).chain(far).collect();
     let in_row = places(size, 1e-4).zip(0..).map(|(x, id)| track(id, x + 3e-5, 0.01));
     let in_row: Vec<_> = in_row.collect();
     let rows = [300, 500, 800].map(|ms| earlier(&row, ms));
@@ -168,7 +167,8 @@ fn around_disks(cycle: &Cycle<'_>) -> Vec<u8> {
         let (i, k) = (at % SIDE, at / SIDE);
         disks.iter().any(|disk| nearest(i, disk * part).hypot(nearest(k, 0.0)) <= radius)
     };
-    let byte = |at: i64| (0..8).filter(|bit| !is_touched(8 * at + bit)).fold(0, |sum, bit| sum | 1 << bit);
+    let byte =
+        |at: i64| (0..8).filter(|bit| !is_touched(8 * at + bit)).fold(0, |sum, bit| sum | 1 << bit);
     (0..SIDE * SIDE / 8).map(byte).collect()
 }
 
@@ -177,4 +177,3 @@ fn around_disks(cycle: &Cycle<'_>) -> Vec<u8> {
 fn measured(run: &mut dyn FnMut() -> bool) -> bool {
     black_box(run())
 }
-

@@ -109,7 +109,11 @@ impl Counts {
             (lists, [disk_rows, cav_rows, way_rows])
         };
         let ((lists, rows), (most_lists, most_rows)) = (sizes(self), sizes(other));
-        lists.iter().zip(&most_lists).chain(rows.iter().zip(&most_rows)).all(|(it, most)| it <= most)
+        lists
+            .iter()
+            .zip(&most_lists)
+            .chain(rows.iter().zip(&most_rows))
+            .all(|(it, most)| it <= most)
     }
 
     /// The list that is too long by itself for so many steps, how long it is, and how long it may be: of

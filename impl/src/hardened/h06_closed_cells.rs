@@ -99,7 +99,7 @@ impl Examined<'_, '_> {
             if !asks_rectangle {
                 return grid.hit(disk, i, k);
             }
-            if cav.certainly_apart(&plain_square(covered.grid, i, k), 0.0)
+            if cav.certainly_apart(&plain_square(covered.grid, i, k))
                 || covered.has(i, k, &mut latest)
             {
                 return None;

@@ -246,7 +246,8 @@ fn in_time(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Result<(),
         return Ok(());
     }
     settings.check_steps(&counts).map_err(|error| {
-        let field = if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
+        let field =
+            if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
         InvalidInput { field, index: None, problem: Problem::TooMany }
     })
 }

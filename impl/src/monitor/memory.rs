@@ -151,12 +151,7 @@ impl Lengths {
     }
 
     /// The longest lists that fit, within the domain, and of the rest what is usual.
-    pub(super) fn counts(
-        self,
-        profile: Profile,
-        capacity: usize,
-        cross_sections: usize,
-    ) -> Counts {
+    pub(super) fn counts(self, profile: Profile, capacity: usize, cross_sections: usize) -> Counts {
         let most = |given: usize, domain: u64| u64::try_from(given).unwrap_or(domain).min(domain);
         let looks_back = profile.looks_back();
         let usual = Counts::USUAL;

@@ -39,46 +39,28 @@ fn separated(a: &Rectangle, b: &Rectangle, is_below: impl Fn(Real, Real) -> bool
     separates(a, b) || separates(b, a)
 }
 
-/// Whether the first rectangle may share a point with what the second one sweeps over, whose centre
-/// moves so far.
-pub(crate) fn possibly_swept(a: &Rectangle, b: &Rectangle, moved: Vector) -> bool {
-    let stays = |reach: Real, gap: Real, rate: Real| {
-        reach.certainly_below(gap) && reach.certainly_below(gap + rate)
-    };
-    !separated_on_the_way(a, b, moved, stays, Real::certainly_below)
-}
-
 /// Whether the first rectangle certainly shares a point with the second one, now or later, which moves
 /// on with a velocity for ever.
+///
+/// Separating axes of a rectangle and the strip that another one sweeps over: the axis of a side
+/// separates them when there is a gap along it that the way does not close; and the one across the way, along
+/// which the strip is as wide as what moves. What does not move has no such axis.
 pub(crate) fn certainly_met(a: &Rectangle, b: &Rectangle, velocity: Vector) -> bool {
+    let (apart, turn) = (b.centre - a.centre, Turn::between(a, b));
     let stays = |reach: Real, gap: Real, rate: Real| {
         reach.possibly_below(gap) && Real::ZERO.possibly_at_most(rate)
     };
-    !separated_on_the_way(a, b, velocity, stays, Real::possibly_below)
-}
-
-/// Separating axes of a rectangle and the strip that another one sweeps over: the axis of a side
-/// separates them when there is a gap along it that the way does not close (`stays`: of half the
-/// extents, the distance of the centres, and how that changes); and the one across the way, along
-/// which the strip is as wide as what moves. What does not move has no such axis.
-fn separated_on_the_way(
-    a: &Rectangle,
-    b: &Rectangle,
-    way: Vector,
-    stays: fn(Real, Real, Real) -> bool,
-    is_below: fn(Real, Real) -> bool,
-) -> bool {
-    let (apart, turn) = (b.centre - a.centre, Turn::between(a, b));
-    let separated = |one: &Rectangle, other: &Rectangle| {
+    let separates = |one: &Rectangle, other: &Rectangle| {
         let sides = turn.reach(one, other).into_iter().zip(one.components(apart));
-        let mut sides = sides.zip(one.components(way));
+        let mut sides = sides.zip(one.components(velocity));
         sides.any(|((reach, gap), rate)| stays(reach, gap, rate) || stays(reach, -gap, -rate))
     };
     let across = |it: &Rectangle| {
-        let [along, across] = it.components(way).map(Real::abs);
+        let [along, across] = it.components(velocity).map(Real::abs);
         across * half(it.length) + along * half(it.width)
     };
-    is_below(across(a) + across(b), way.cross(apart).abs()) || separated(a, b) || separated(b, a)
+    let passes = (across(a) + across(b)).possibly_below(velocity.cross(apart).abs());
+    !(passes || separates(a, b) || separates(b, a))
 }
 
 impl Rectangle {

@@ -3,7 +3,6 @@
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, points_examined};
-use crate::stages::llcc::close::ClosePairs;
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::llcc::{CavMotion, Collision};
 
@@ -15,12 +14,9 @@ pub(crate) fn trajectory_with_tracks(
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Cav);
     let motion = CavMotion::new(cycle, points, tracks.stamp_ns);
-    let mut close = ClosePairs::default();
-    let found = motion.first_collision(tracks.items.iter().map(MovingRectangle::track), &mut close);
-    close.failure().or_else(|| {
-        found.map(|Collision { point, object, compared }| {
-            let track = tracks.items.get(object).map(|track| track.id);
-            Witness { track, ..Witness::of(Rule::Collision, compared) }.at_point(point)
-        })
+    let found = motion.first_collision(tracks.items.iter().map(MovingRectangle::track));
+    found.map(|Collision { point, object, compared }| {
+        let track = tracks.items.get(object).map(|track| track.id);
+        Witness { track, ..Witness::of(Rule::Collision, compared) }.at_point(point)
     })
 }

@@ -5,7 +5,6 @@ use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_follow;
 use crate::stages::horizon::{Horizon, points_examined};
-use crate::stages::llcc::close::ClosePairs;
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::llcc::{CavMotion, Collision};
 
@@ -39,13 +38,9 @@ fn collision(
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Valid(lead));
     let motion = CavMotion::new(cycle, points, detections.stamp_ns);
-    let mut close = ClosePairs::default();
-    let found =
-        motion.first_collision(detections.items.iter().map(MovingRectangle::detection), &mut close);
-    close.failure().or_else(|| {
-        found.map(|Collision { point, object, compared }| {
-            let witness = Witness::of(Rule::Collision, compared).at_point(point);
-            Witness { detection: Some(object), ..witness }
-        })
+    let found = motion.first_collision(detections.items.iter().map(MovingRectangle::detection));
+    found.map(|Collision { point, object, compared }| {
+        let witness = Witness::of(Rule::Collision, compared).at_point(point);
+        Witness { detection: Some(object), ..witness }
     })
 }

@@ -1,4 +1,4 @@
-//! How much that is close is decided (LLCC-03, H-14.54, MARGIN-14, MARGIN-15).
+//! What is closer than 1e-8 m is decided, however much there is of it (IMPL-01, IMPL-02).
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
@@ -9,8 +9,7 @@ use mufasa::report::{Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration::AllRemote;
 
 /// Half a CAV and half a car are 1.95 m wide.
-const BESIDE: f64 = 1.95 + 1e-9;
-const LIMIT: Option<(Rule, [f64; 2])> = Some((Rule::WorkLimit, [1025.0, 1024.0]));
+const BESIDE: f64 = 1.95 + 6e-9;
 
 fn reason(failure: Option<Witness>) -> Option<(Rule, [f64; 2])> {
     failure.map(|it| (it.rule, it.compared))
@@ -36,102 +35,46 @@ fn of_both(objects: i64, points: i64, y: f64) -> [Option<(Rule, [f64; 2])>; 2] {
     [Stage::Iii, Stage::Iv].map(|stage| reason(scene.failure_of(stage)))
 }
 
+/// What is farther than half of the least margin aside is told to be, however much there is of it.
 #[test]
-fn stages_iii_and_iv_decide_1024_close_pairs_and_not_1025() {
-    assert_eq!(of_both(32, 32, BESIDE), [None; 2]);
-    assert_eq!(of_both(41, 25, BESIDE), [LIMIT; 2]);
-    // Plain doubles decide what is a centimetre apart, and no pair where theta_obj is less.
-    assert_eq!(of_both(1024, 1024, BESIDE + 0.01), [None; 2]);
+fn stages_iii_and_iv_decide_every_pair() {
+    assert_eq!(of_both(64, 64, BESIDE), [None; 2]);
+    let [iii, iv] = of_both(64, 64, 1.95).map(|it| it.expect("it touches").0);
+    assert_eq!([iii, iv], [Rule::Collision; 2]);
     let mut scene = waiting(Profile::PAPER, 41);
-    scene.tracks = Some(tracks(41, BESIDE));
+    scene.tracks = Some(tracks(41, 1.95));
     scene.parameters.theta_obj = 1.9;
     assert_eq!(scene.failure_of(Stage::Iii), None);
 }
 
-/// One that touches at each point: the others are looked at before the first of them alone.
-#[test]
-fn a_collision_is_found_among_close_pairs() {
-    let mut scene = waiting(Profile::PAPER, 32);
-    scene.tracks = Some(tracks(33, BESIDE));
-    assert_eq!(reason(scene.failure_of(Stage::Iii)), LIMIT);
-    scene.tracks.as_mut().expect("33")[0].y = 1.95;
-    let witness = scene.failure_of(Stage::Iii).expect("it touches");
-    assert_eq!((witness.rule, witness.point, witness.track), (Rule::Collision, Some(0), Some(0)));
-}
-
 /// The CAV stands, and has two places, at most 2.1 cm apart.
-fn standing() -> Scene {
+#[test]
+fn h14_decides_every_place_and_motion() {
     let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
     scene.ego.speed = 0.0;
     scene.points.truncate(1);
-    scene
-}
-
-/// `s_stop`: 0.3 m/s after `tau`.
-const LAST: f64 = 0.015 + 0.3 * 0.3 / 16.0;
-
-#[test]
-fn h14_decides_1024_close_places_and_motions_and_not_1025() {
-    let mut scene = standing();
-    scene.tracks = Some(tracks(512, BESIDE));
+    let rule = |scene: &Scene| scene.failure_of_iv().map(|it| it.rule);
+    scene.tracks = Some(tracks(1024, BESIDE));
     assert_eq!(scene.failure_of_iv(), None);
-    // Before the last place, and 2 cm before the other one; half the CAV's length and the offset.
-    let ahead = track(512, LAST + 2.25 + 1.4 + 2.0 + 1e-8, 0.0);
-    let with = |x| [tracks(512, BESIDE), vec![Track { x, ..ahead }]].concat();
-    scene.tracks = Some(with(ahead.x));
-    assert_eq!(reason(scene.failure_of_iv()), LIMIT);
-    scene.tracks = Some(with(ahead.x + 0.01));
-    assert_eq!(scene.failure_of_iv(), None);
-    // Off a corner, askew, where boxes do not tell.
+    scene.tracks = Some(tracks(1024, 1.95));
+    assert_eq!(rule(&scene), Some(Rule::FailSafe));
+    // Off a corner of the last place, askew: half the CAV's length and the offset.
     let (sin, cos) = (3.0 * FRAC_PI_4).sin_cos();
-    for (gap, failure) in [(0.011, None), (1e-9, LIMIT)] {
+    let last = 0.015 + 0.3 * 0.3 / 16.0;
+    for (gap, failure) in [(1e-8, None), (-1e-9, Some(Rule::FailSafe))] {
         let aside = (1.0 + gap) * FRAC_1_SQRT_2;
-        let corner = |id| track(id, LAST + 2.25 + 1.4 + aside, 0.95 + aside);
-        // They are 1.5 cm farther from the other place.
-        let askew = (1..1024).map(|id| Track { cos, sin, ..corner(id) });
-        scene.tracks = Some(tracks(1, BESIDE).into_iter().chain(askew).collect());
-        assert_eq!(reason(scene.failure_of_iv()), failure, "{gap}");
+        let corner = |id| track(id, last + 2.25 + 1.4 + aside, 0.95 + aside);
+        scene.tracks = Some((0..1024).map(|id| Track { cos, sin, ..corner(id) }).collect());
+        assert_eq!(rule(&scene), failure, "{gap}");
     }
-}
-
-/// Pairs count wherever one is that meets the CAV, so that the order of items makes no difference.
-#[test]
-fn h14_counts_what_is_close_whatever_meets_the_cav() {
-    let mut scene = standing();
-    scene.tracks = Some([tracks(513, BESIDE), vec![track(513, 5.0, 0.0)]].concat());
-    assert_eq!(reason(scene.failure_of_iv()), LIMIT);
-    let mut tracks = scene.tracks.take().expect("514");
-    tracks.reverse();
-    scene.tracks = Some(tracks.clone());
-    assert_eq!(reason(scene.failure_of_iv()), LIMIT);
-    tracks.truncate(513);
-    scene.tracks = Some(tracks);
-    assert_eq!(scene.failure_of_iv().map(|it| it.rule), Some(Rule::FailSafe));
-}
-
-/// Detections that come from an earlier list, each from each item.
-#[test]
-fn h14_counts_motions_of_detections() {
-    let mut scene = standing();
+    // Detections that come from an earlier list, each from each item.
+    let beside = |count: usize, y: f64| -> Vec<Detection> { vec![detection(0.0, y); count] };
     scene.tracks = None;
-    let beside = |count: usize| -> Vec<Detection> { vec![detection(0.0, BESIDE); count] };
-    // Each from each item, and each as unexplained, at two places: 924 and 1056.
-    for (count, earlier, failure) in [(21, 21, None), (22, 23, LIMIT)] {
-        scene.detections = Some(beside(count));
-        scene.history = vec![(300_000_000, beside(earlier))];
-        assert_eq!(reason(scene.failure_of_iv()), failure, "{count}");
+    for (y, failure) in [(BESIDE, None), (1.95, Some(Rule::Collision))] {
+        scene.detections = Some(beside(64, y));
+        scene.history = vec![(300_000_000, beside(64, y))];
+        assert_eq!(rule(&scene), failure, "{y}");
     }
-}
-
-/// An object that follows meets the CAV at each place, and is not close.
-#[test]
-fn who_follows_does_not_count() {
-    let mut scene = standing();
-    let behind = |id| Track { vx: 5.0, ..track(id, -3.3, 0.0) };
-    scene.tracks = Some([tracks(512, BESIDE), (512..1024).map(behind).collect()].concat());
-    assert_eq!(scene.failure_of_iv(), None);
-    scene.tracks = Some(vec![Track { vy: 5.0, ..behind(0) }]);
-    assert_eq!(scene.failure_of_iv().map(|it| it.rule), Some(Rule::FailSafe));
 }
 
 /// Who drifts into the CAV's way ahead of it keeps beside the path, which is 10 um aside all along: nearer

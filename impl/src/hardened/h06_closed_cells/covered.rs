@@ -38,11 +38,11 @@ fn certainly_covers(
     square: impl FnOnce() -> Rectangle,
 ) -> bool {
     let grown = grown(detection);
-    if plain.certainly_far(&grown, 0.0, plain.reach() + grown.reach()) {
+    if plain.certainly_far(&grown, plain.reach() + grown.reach()) {
         return false;
     }
     grown.certainly_contains(plain.centre)
-        || !plain.certainly_apart(&grown, 0.0)
+        || !plain.certainly_apart(&grown)
             && certainly_touch(&grown.displaced(vector([0.0; 2])), &square())
 }
 

@@ -53,10 +53,12 @@ impl Clock {
         larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
-    /// After what time an object that goes on is where it is now when it brakes, rounded down.
+    /// After what time an object that goes on is where it is after so many seconds when it brakes.
     pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
-        let left = larger(speed - self.a_b * seconds, 0.0);
-        if speed > 1e-3 { (speed - left * left / speed) * self.braking - 1e-9 } else { 0.0 }
+        let seconds = larger(seconds, 0.0);
+        let lost = self.a_b * seconds;
+        // Nothing is taken from what is not smaller, so that this errs by less than 2^-50 of itself.
+        if lost < speed { seconds * (1.0 - 0.5 * (lost / speed)) } else { speed * self.braking }
     }
 }
 
@@ -104,7 +106,7 @@ impl Cover {
     /// With the CAV at two places and between, of that heading.
     #[inline]
     pub(super) fn add(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
-        let cav = rectangle(ego, heading);
+        let cav = MovingRectangle::cav(ego, heading);
         let (reach, forward) = (cav.extents(self.axis), split(self.axis, cav.centre));
         for place in places {
             let [along, across] = split(self.axis, place);
@@ -181,16 +183,6 @@ impl Seen {
         let aside = (va * across - vb * along).abs() * length;
         let reach = va.abs() * half_b + vb.abs() * half_a + aside + f64::MIN_POSITIVE;
         (va * b - vb * a).abs() > reach + (va * along + vb * across).abs() * width
-    }
-}
-
-/// The CAV's rectangle, its reference point at the origin.
-pub(super) fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
-    MovingRectangle {
-        centre: [ego.center_offset * cos, ego.center_offset * sin],
-        direction: [cos, sin],
-        velocity: [0.0; 2],
-        size: [ego.length, ego.width],
     }
 }
 
@@ -273,7 +265,7 @@ impl Covers {
     }
 
     fn extend_upright(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
-        let cav = rectangle(ego, heading);
+        let cav = MovingRectangle::cav(ego, heading);
         for [x, y] in places {
             let centre = [x + cav.centre[0], y + cav.centre[1]];
             extend(&mut self.upright, centre, [cav.reach(); 2]);

@@ -1,8 +1,9 @@
 //! Whether an object meets the CAV (`spec/hardened/H-14.md#requirements-the-cav`, `#requirements-not-examined`, `#requirements-failure`).
 //!
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, by
-//! `spot` unless it is close, else with error bounds; that an object comes across the CAV, follows it or keeps
-//! beside it only when it is sure.
+//! `spot`; with error bounds alone, once an object, that it comes across the CAV, follows it or keeps beside it.
+
+use core::cell::LazyCell;
 
 use crate::cycle::steps::{BOX, MOTION, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
@@ -14,11 +15,10 @@ use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
-use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept, possibly_touch};
+use crate::numbers::rectangle::{Rectangle, certainly_met};
 use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
-use crate::stages::llcc::close::{ClosePairs, TooMany};
 use crate::stages::llcc::sweep::{MovingRectangle, minus};
 use crate::stages::llcc::{Pose, footprint, vector};
 
@@ -42,8 +42,6 @@ pub(super) struct Meeting<'c, 'a> {
     route: IndexedRoute<'c, 'a>,
     /// Once they are needed.
     places: Option<Places<'c, 'a>>,
-    /// Places and motions.
-    pub(super) close: ClosePairs,
 }
 
 impl<'c, 'a> Meeting<'c, 'a> {
@@ -57,17 +55,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
         let covers = Covers::new(&ego, nodes, &clock.times);
-        Self {
-            nodes,
-            trajectory,
-            ego,
-            aside,
-            clock,
-            covers,
-            route,
-            places: None,
-            close: ClosePairs::default(),
-        }
+        Self { nodes, trajectory, ego, aside, clock, covers, route, places: None }
     }
 
     const fn cycle(&self) -> &'c Cycle<'a> {
@@ -121,11 +109,11 @@ impl<'c, 'a> Meeting<'c, 'a> {
     }
 
     /// The first place where the object may meet the CAV, if that is before the place with that number, and
-    /// the object is examined. Until then each place counts that is close, so that their number does not
-    /// depend on what was found before.
+    /// the object is examined.
     pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
-        let (object, exact) = (self.plainly(motion), Exact::new(self.cycle(), motion));
-        let Self { nodes, trajectory, ego, aside, clock, covers, route, places, close } = self;
+        let (cycle, object) = (self.cycle(), self.plainly(motion));
+        let exact = LazyCell::new(|| Exact::new(cycle, motion));
+        let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
         let places = places.get_or_insert_with(|| {
             let path = Path::new(*nodes);
             let points = trajectory.len();
@@ -133,9 +121,12 @@ impl<'c, 'a> Meeting<'c, 'a> {
             Places { path, points, ego: *ego, starts, beside }
         });
         let boxes = (&*covers, &*clock, work);
-        let meets =
-            |place: &Place| places.meets(place, (&object, &exact), clock, close).transpose();
-        let met = places.first(&object, boxes, meets)?.ok()?;
+        let comes_across = || exact.comes_across;
+        let meets = |place: &Place| {
+            (place.number >= before || places.meets(place, &object, clock, comes_across))
+                .then(|| places.met(place))
+        };
+        let met = places.first(&object, boxes, meets)?;
         (met.number < before && !places.is_exempt((&object, &exact), boxes)).then_some(met)
     }
 }
@@ -215,32 +206,23 @@ impl<'c, 'a> Places<'c, 'a> {
     fn meets(
         &self,
         place: &Place,
-        (plain, object): (&Object, &Exact),
+        object: &Object,
         clock: &Clock,
-        close: &mut ClosePairs,
-    ) -> Result<Option<Met>, TooMany> {
+        comes_across: impl FnOnce() -> bool,
+    ) -> bool {
         let times = &self.path.times;
-        let passes = place.after.filter(|after| after.certainly_below(times.s_b));
-        let end = match passes {
-            Some(after) => times.plainly_last(after),
-            None if object.comes_across => times.until_stop.value(),
-            None => clock.until_yielded(plain.speed),
-        };
-        let window = [times.plainly_first(place.before), end];
-        if Spot::new(&self.ego, place).is_missed(plain, window, clock) {
-            return Ok(None);
+        let (spot, start) = (Spot::new(&self.ego, place), times.plainly_first(place.before));
+        let meets = |end: f64| !spot.is_missed(object, [start, end], clock);
+        if let Some(after) = place.after.filter(|after| after.certainly_below(times.s_b)) {
+            return meets(times.plainly_last(after));
         }
-        let start = times.first(place.before);
-        let end = match passes {
-            Some(after) => times.last(after),
-            None if object.comes_across => times.until_stop,
-            None => self.until_yielded(object.speed),
-        };
-        let cav = footprint(&self.ego, &place.pose);
-        let meets = object.possibly_sweeps(&cav, start, end, self.cycle().parameters.a_b);
-        let ways = [place.way, times.s_stop].map(Real::value);
-        let (number, point) = (place.number, place.point(self.points));
-        close.decide(meets.then_some(Met { number, point, ways }))
+        meets(clock.until_yielded(object.speed))
+            && (!comes_across() || meets(times.until_stop.value()))
+    }
+
+    fn met(&self, place: &Place) -> Met {
+        let ways = [place.way, self.path.times.s_stop].map(Real::value);
+        Met { number: place.number, point: place.point(self.points), ways }
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
@@ -258,19 +240,17 @@ impl<'c, 'a> Places<'c, 'a> {
             let (until, comes_towards) =
                 (self.until_yielded(speed), across.certainly_at_most(-along));
             let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
-            self.beside.keeps(&passing, boxes.2) && !self.may_lie_across(&now, &object.standing(from), boxes)
+            self.beside.keeps(&passing, boxes.2)
+                && !self.may_lie_across(&object.standing(from), boxes)
         }
     }
 
-    /// Whether an object may share a point with the CAV at some place, where it is now; `plainly`: the same
-    /// in plain doubles.
-    fn may_lie_across(&self, now: &Rectangle, plainly: &Object, boxes: Boxes<'_>) -> bool {
+    /// Whether an object that stands may share a point with the CAV at some place.
+    fn may_lie_across(&self, object: &Object, boxes: Boxes<'_>) -> bool {
         let touches = |place: &Place| {
-            let is_clear = Spot::new(&self.ego, place).is_clear_of(&plainly.at);
-            let exactly = || !possibly_touch(&footprint(&self.ego, &place.pose), now);
-            (!is_clear.unwrap_or_else(exactly)).then_some(())
+            (!Spot::new(&self.ego, place).is_missed(object, [0.0; 2], boxes.1)).then_some(())
         };
-        self.first(plainly, boxes, touches).is_some()
+        self.first(object, boxes, touches).is_some()
     }
 
     /// H(w) = max(T, tau + `t_yield` + abs(w) / (2 `a_yield`)), s.
@@ -297,14 +277,11 @@ fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
 
 /// An object with error bounds.
 struct Exact {
-    /// At the time of its list.
-    at: Rectangle,
     /// Now.
     now: Rectangle,
     /// m/s; 0 where that makes no difference.
     velocity: Vector,
     speed: Real,
-    age: Real,
     /// Whether it does, however little.
     moves: bool,
     /// Whether it certainly is.
@@ -328,27 +305,9 @@ impl Exact {
         let now = Rectangle { centre: at.centre + velocity.times(age), ..at };
         let is_behind = is_behind(&cycle.ego, &now, velocity);
         let comes_across = !is_slow && comes_across(cycle, &now, velocity, is_behind);
-        Self { at, now, velocity, speed, age, moves, is_behind, comes_across }
-    }
-
-    /// Whether it may sweep over a point of the rectangle between two times after now.
-    fn possibly_sweeps(&self, cav: &Rectangle, start: Real, end: Real, a_b: f64) -> bool {
-        let Self { at, velocity, speed, age, .. } = *self;
-        let (braking, until) = (Real::new(a_b), age + end);
-        let left = (speed - braking * (age + start)).max(Real::ZERO);
-        let is_still = speed.magnitude() < STILL;
-        let from = if is_still {
-            Real::ZERO
-        } else {
-            (speed - left * left.over(speed)).over(braking + braking)
-        };
-        let swept = Rectangle { centre: at.centre + velocity.times(from), ..at };
-        possibly_swept(cav, &swept, velocity.times(until - from))
+        Self { now, velocity, speed, moves, is_behind, comes_across }
     }
 }
-
-/// m/s; so slow is only what counts as standing.
-const STILL: f64 = f64::from_bits((1023 - 300) << 52);
 
 /// Whether the object certainly goes the CAV's way, and all of it is behind the CAV's rear.
 fn is_behind(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {

@@ -71,7 +71,7 @@ impl FailSafe<'_, '_> {
         if let Some(list) = detections {
             motions.detections(list, age(list.stamp_ns), tracks, scratch);
         }
-        let failure = motions.lists.work.failure().or_else(|| motions.meeting.close.failure());
+        let failure = motions.lists.work.failure();
         failure.or_else(|| motions.first.map(|found| found.witness))
     }
 }

@@ -104,12 +104,11 @@ impl Motions<'_, '_, '_> {
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
         self.lists.work.add(MOTION);
-        let is_over = self.lists.work.is_too_much() || self.meeting.close.are_too_many();
+        let is_over = self.lists.work.is_too_much();
         if is_over || !self.meeting.may_be_met(motion) || !counts(self) {
             return;
         }
-        if let Some(Met { number, point, ways }) =
-            self.meeting.first(motion, end, &self.lists.work)
+        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end, &self.lists.work)
         {
             let found = Witness::of(Rule::FailSafe, ways).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });

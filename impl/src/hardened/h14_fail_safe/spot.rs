@@ -1,75 +1,54 @@
-//! The CAV at one place in plain doubles, which decide whatever is not close (H-14.54).
+//! The CAV at one place, in plain doubles, which decide whether an object sweeps over it.
 //!
-//! All counts from the CAV's reference point. Places, ways and times come rounded once from numbers with
-//! error bounds, and sizes are taken along directions as long as they are. With less than 32 roundings a
-//! coordinate, up to 2^26 m, errs by less than 1e-6 m, and so does what an object of 1000 m/s moves in
-//! 1e5 s.
+//! All counts from the CAV's reference point. Places and ways come rounded once from numbers with error
+//! bounds. A window errs by less than 1e-14 of H(w), or by 1e-12 s where little way is left to a stop: the root
+//! of a way that is known up to 1e-26 m. Each comparison rounds less than 64 times numbers that are no greater
+//! than D = abs(c - p) + abs(w) (60 s + H(w)), or than 500 m, where the two may be so near that it matters. So it
+//! errs by less than 64 * 2^-53 (D + 500 m) + abs(w) (1e-14 H(w) + 1e-12 s), which is less than a half of `ROUGH` D
+//! and a thousandth of `SLACK`. What is added here is less than four times `ROUGH` D and twice `SLACK`, since D counts
+//! x and y, c where the list has it, and the axis across the way takes x and y apart again: less than the
+//! strict model adds, 1e-12 D and at least 1e-8 m (MARGIN-16).
 
-use crate::hardened::h14_fail_safe::cover::{Clock, Object, rectangle};
+use crate::hardened::h14_fail_safe::cover::{Clock, Object};
 use crate::hardened::h14_fail_safe::path::Place;
 use crate::input::cycle::Ego;
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{larger, smaller};
-use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus, split};
+use crate::stages::llcc::sweep::{MovingRectangle, SLACK, minus};
 
-/// More than so many roundings err, of all that is added: 2^-46.
-const ROUGH: f64 = 1.0 / 70_368_744_177_664.0;
-/// Less than half the least margin of the strict model, m (DOM-01, MARGIN-01).
-const FINE: f64 = 4e-9;
+/// More than comparisons err, of how far an object is and goes.
+const ROUGH: f64 = 1e-13;
+/// No list is older, s.
+const OLDEST: f64 = 60.0;
 
 /// The CAV's rectangle at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
     cav: MovingRectangle,
+    /// More than the place errs, m.
+    error: f64,
 }
 
 impl Spot {
     /// Of a CAV so large.
     pub(super) fn new(ego: &Ego, place: &Place) -> Self {
-        let cav = rectangle(ego, place.pose.heading);
+        let cav = MovingRectangle::cav(ego, place.pose.heading);
         let from = place.pose.at - Vector::new(ego.x, ego.y);
         let [x, y] = cav.centre;
         let centre = [from.x.value() + x, from.y.value() + y];
-        Self { cav: MovingRectangle { centre, ..cav } }
+        Self { cav: MovingRectangle { centre, ..cav }, error: from.x.off() + from.y.off() }
     }
 
-    /// Whether an object certainly sweeps over no point of it between two times after now.
+    /// Whether an object certainly sweeps over no point of it between two times after now. What does not in
+    /// the strict model is found not to.
     pub(super) fn is_missed(&self, object: &Object, [start, end]: [f64; 2], clock: &Clock) -> bool {
         let &Object { at, speed, age } = object;
         let (from, until) = (clock.braked(speed, age + start), age + end);
         let moved = at.velocity.map(|rate| rate * (until - from));
-        let centre = at.after(from);
-        self.is_apart(&MovingRectangle { centre, ..at }, moved, MARGIN)
-    }
-
-    /// Whether an object certainly shares no point with it, where it stands; `None` where that takes more
-    /// than plain doubles. What is apart in the strict model, with its margin, is found to be so.
-    pub(super) fn is_clear_of(&self, object: &MovingRectangle) -> Option<bool> {
-        let sum = |[a, b]: [f64; 2]| a.abs() + b.abs();
-        let added = |it: &MovingRectangle| sum(it.centre) + sum(it.size);
-        let error = (added(&self.cav) + added(object)) * ROUGH;
-        let is_apart = self.is_apart(object, [0.0; 2], error);
-        (is_apart || error < FINE).then_some(is_apart)
-    }
-
-    /// Separating axes as in `separated_on_the_way`, in plain doubles; products may underflow.
-    fn is_apart(&self, object: &MovingRectangle, moved: [f64; 2], error: f64) -> bool {
-        let (cav, between) = (&self.cav, minus(object.centre, self.cav.centre));
-        let separates = |one: &MovingRectangle, other: &MovingRectangle| {
-            let [gaps, rates] = [between, moved].map(|it| split(one.direction, it));
-            let reaches = one.extents(one.direction).into_iter().zip(other.extents(one.direction));
-            let mut sides = gaps.into_iter().zip(rates).zip(reaches);
-            sides.any(|((gap, rate), (own, reach))| {
-                let (to, half) = (gap + rate, own + reach + error);
-                smaller(gap, to) > half || larger(gap, to) < -half
-            })
-        };
-        let [x, y] = moved;
-        let [_, across] = split(moved, between);
-        let half = cav.extents(moved)[1] + object.extents(moved)[1];
-        separates(cav, object)
-            || separates(object, cav)
-            || across.abs() > half + error * (x.abs() + y.abs()) + f64::MIN_POSITIVE
+        let between = minus(at.after(from), self.cav.centre);
+        let [x, y] = at.centre.map(f64::abs);
+        let goes = speed * (OLDEST + clock.until_yielded(speed));
+        let error = SLACK + ROUGH * (x + y + goes) + self.error;
+        self.cav.is_clear_of(&at, between, moved, error)
     }
 }
 

@@ -71,11 +71,10 @@ impl<N: Number> Times<N> {
 }
 
 impl Times<Real> {
-    /// `first` in plain doubles, which err by less than 1e-14 of T, and 1e-6 s: what is left of the way is
-    /// rounded once.
+    /// `first` in plain doubles, which err by less than 1e-15 of T: what is left of the way is rounded once.
     pub(super) fn plainly_first(&self, f: Real) -> f64 {
-        /// m; takes less than 1e-6 s.
-        const NOTHING: f64 = 1e-15;
+        /// m; takes less than 1e-29 s, and twice `a_max` times more does not underflow.
+        const NOTHING: f64 = 1e-60;
         let [v, a_max, way] = [self.v, self.a_max, f].map(Real::value);
         if way > self.s_tau.value() {
             self.until_stop.value() - self.plainly_stops(self.s_stop - f)

@@ -7,10 +7,13 @@
 //! is left to `collision`.
 
 use crate::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
-use crate::numbers::range::{EMPTY, extend, larger};
+use crate::numbers::range::{EMPTY, extend, larger, smaller};
 
 /// m
 pub(crate) const MARGIN: f64 = 1e-6;
+/// By how much more than the text half the CAV's length and width count, m: more than what is compared errs by,
+/// and less than half of the least margin of the strict model (DOM-01, MARGIN-01).
+pub(crate) const SLACK: f64 = 4e-9;
 
 /// A rectangle that moves with constant velocity.
 #[derive(Clone, Copy, Debug)]
@@ -39,13 +42,24 @@ impl MovingRectangle {
 
     /// The CAV at a trajectory point.
     pub(crate) fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Self {
-        let &TrajectoryPoint { x, y, cos, sin, .. } = point;
+        let cav = Self::cav(ego, [point.cos, point.sin]);
+        let [x, y] = cav.centre;
+        Self { centre: [point.x + x, point.y + y], ..cav }
+    }
+
+    /// The CAV, its reference point at the origin.
+    pub(crate) fn cav(ego: &Ego, [cos, sin]: [f64; 2]) -> Self {
         Self {
-            centre: [x + ego.center_offset * cos, y + ego.center_offset * sin],
+            centre: [ego.center_offset * cos, ego.center_offset * sin],
             direction: [cos, sin],
             velocity: [0.0, 0.0],
             size: [ego.length, ego.width],
         }
+    }
+
+    /// The same, counting from another point than the origin.
+    pub(crate) fn seen_from(&self, point: [f64; 2]) -> Self {
+        Self { centre: minus(self.centre, point), ..*self }
     }
 
     /// Where the centre is after a time in s.
@@ -67,20 +81,39 @@ impl MovingRectangle {
         [length * along + width * across, length * across + width * along]
     }
 
-    /// Whether the rectangle certainly shares no point with another one, which has moved for so
-    /// many seconds: some side of one of the two separates them.
-    pub(crate) fn certainly_apart(&self, other: &Self, seconds: f64) -> bool {
-        let between = minus(other.after(seconds), self.centre);
+    /// Whether the rectangle certainly shares no point with another one, at the time 0.
+    pub(crate) fn certainly_apart(&self, other: &Self) -> bool {
+        self.is_clear_of(other, minus(other.centre, self.centre), [0.0; 2], MARGIN)
+    }
+
+    /// Whether the rectangle shares no point with what another one sweeps over, whose centre is so far from
+    /// its own, `between`, and moves so far. `error`: more than that errs, m.
+    ///
+    /// Separating axes: the axis of a side of one of the two separates them when there is a gap along it that
+    /// the way does not close; and the one across the way, along which the strip is as wide as what moves.
+    /// Where products with the way underflow, it is too short for that one to make a difference.
+    pub(crate) fn is_clear_of(
+        &self,
+        other: &Self,
+        between: [f64; 2],
+        moved: [f64; 2],
+        error: f64,
+    ) -> bool {
         let separates = |one: &Self, other: &Self| {
-            let [length, width] = one.size;
-            let [along, across] = split(one.direction, between);
-            let [reach_along, reach_across] = other.extents(one.direction);
-            // Directions may be shorter than 1 by 5e-7, and their squares by 1e-6.
-            let own = 0.5 * (1.0 + 1e-6);
-            along.abs() > own * length + reach_along + MARGIN
-                || across.abs() > own * width + reach_across + MARGIN
+            let [gaps, rates] = [between, moved].map(|it| split(one.direction, it));
+            let reaches = one.extents(one.direction).into_iter().zip(other.extents(one.direction));
+            let mut sides = gaps.into_iter().zip(rates).zip(reaches);
+            sides.any(|((gap, rate), (own, reach))| {
+                let (to, half) = (gap + rate, own + reach + error);
+                smaller(gap, to) > half || larger(gap, to) < -half
+            })
         };
-        separates(self, other) || separates(other, self)
+        if separates(self, other) || separates(other, self) {
+            return true;
+        }
+        let ([x, y], [_, across]) = (moved, split(moved, between));
+        let half = self.extents(moved)[1] + other.extents(moved)[1];
+        across.abs() > half + error * (x.abs() + y.abs()) + f64::MIN_POSITIVE
     }
 
     /// Whether a point is certainly in the rectangle, at the time 0.
@@ -91,9 +124,9 @@ impl MovingRectangle {
         along < length && across < width
     }
 
-    /// Whether the centres are certainly at least `limit` apart after so many seconds.
-    pub(crate) fn certainly_far(&self, other: &Self, seconds: f64, limit: f64) -> bool {
-        let [x, y] = minus(other.after(seconds), self.centre);
+    /// Whether the centres are certainly at least `limit` apart, at the time 0.
+    pub(crate) fn certainly_far(&self, other: &Self, limit: f64) -> bool {
+        let [x, y] = minus(other.centre, self.centre);
         let limit = limit + MARGIN;
         x * x + y * y > limit * limit * (1.0 + 1e-15)
     }

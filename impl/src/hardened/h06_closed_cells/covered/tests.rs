@@ -53,7 +53,7 @@ fn a_cell_is_covered_exactly_when_it_touches_what_is_grown() {
         let apart = |less: f64| {
             let it = MovingRectangle::detection(&given);
             let it = MovingRectangle { size: it.size.map(|size| size + 0.5 - less), ..it };
-            plain.certainly_apart(&it, 0.0)
+            plain.certainly_apart(&it)
         };
         assert!(!(covers && apart(0.0)), "{given:?} {grid:?} {i} {k}");
         assert!(covers || apart(1e-4), "{given:?} {grid:?} {i} {k}");
