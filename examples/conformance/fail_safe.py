@@ -220,4 +220,4 @@ class FailSafe:
         items = [len(one["items"]) for one in seen.lists]
         places = len(self.places) + len(self.cycle["trajectory"]["points"])
         return (len(seen.detections) * max([1, *items]) * (512 + 8 * sum(items))
-                + motions * (512 + 256 * places + 32 * len(self.cycle["route"]["stations"])))
+                + motions * (1280 + 768 * places + 32 * len(self.cycle["route"]["stations"])))

@@ -16,18 +16,17 @@ use mufasa_benches::worst::{
 };
 
 /// What is run: a stage, or the checks of the input.
-const INPUTS: [(&str, Option<Stage>); 13] = [
+const INPUTS: [(&str, Option<Stage>); 12] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
     ("history", Some(Stage::I)),
-    ("beyond-route", Some(Stage::Ii)),
-    ("within-route", Some(Stage::Ii)),
+    ("off-route", Some(Stage::Ii)),
+    ("on-route", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
     ("detections", Some(Stage::Iv)),
     ("moving", Some(Stage::Iv)),
-    ("still", Some(Stage::Iv)),
-    ("oncoming", Some(Stage::Iv)),
+    ("beside-route", Some(Stage::Iv)),
     ("cells", Some(Stage::V)),
     ("dilated", Some(Stage::V)),
 ];
@@ -46,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
     let size: u32 = size.parse()?;
     let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
-    let folded = folded(8 * size);
+    let folded = folded(if input.ends_with("route") { 8 * size } else { 4 });
     let grid = vec![0; 8];
     let hardened = Cycle { profile: Profile::HARDENED, ..base(&folded, &grid) };
     let base = Cycle { grid: None, ..hardened };
@@ -55,8 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let along = timed(places(size, 0.5).map(|x| point(x, 0.0)).collect());
     // Beside the road, and on its last part.
-    let beyond = timed(places(size, 0.01).map(|x| point(x, -0.3)).collect());
-    let within = timed(places(size, 0.01).map(|x| point(x, 0.3)).collect());
+    let off = timed(places(size, 0.01).map(|x| point(x, -0.3)).collect());
+    let on = timed(places(size, 0.01).map(|x| point(x, 0.3)).collect());
     // From one end of a roof to the other: what is below it is in every box around it.
     let roof = |x: f64| point(x, 30.0 - (x - 30.0).abs());
     let roof = timed(places(size, 60.0 / f64::from(size - 1)).map(roof).collect());
@@ -77,9 +76,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let beside: Vec<_> = (0..size).map(|_| detection(9.0, touching)).collect();
     let moved: Vec<_> = beside.iter().map(|it| Detection { y: it.y + 0.5, ..*it }).collect();
     let seen = [300, 500, 800].map(|ms| earlier(&moved, ms));
-    let still = numbered(&|id| track(id, 9.0, touching));
     // They drift from the other lane into the CAV's way.
-    let oncoming = numbered(&|id| Track { vx: -20.0, vy: -1.0, ..track(id, 60.0, 4.0) });
+    let oncoming = numbered(&|id| Track { vx: -20.0, vy: -2.0, ..track(id, 60.0, 4.0) });
 
     let limited = Parameters { work_limit: i64::from(size) * 8192, ..Parameters::default() };
     let strict = Parameters { theta_tr: 0.2, ..base.parameters };
@@ -110,8 +108,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "crowd" => Cycle { detection_history: &rows, ..lists(&crowd, &row) },
         "assignment" => lists(&crowd, &line),
         "history" => Cycle { detection_history: &rows, ..lists(&in_row, &row) },
-        "beyond-route" => Cycle { parameters: wide, ..plan(&beyond) },
-        "within-route" => plan(&within),
+        "off-route" => Cycle { parameters: wide, ..plan(&off) },
+        "on-route" => plan(&on),
         "tracks" => Cycle { tracks: Some(tracks(&below)), ..plan(&roof) },
         "detections" => {
             let detections = Some(list(&below_seen));
@@ -121,9 +119,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let detections = Some(list(&beside));
             Cycle { detections, detection_history: &seen, ..fail_safe }
         }
-        "still" | "oncoming" => {
-            let tracks = Some(tracks(if input == "still" { &still } else { &oncoming }));
-            Cycle { tracks, detections: Some(list(&line[..0])), ..fail_safe }
+        "beside-route" => {
+            let tracks = Some(tracks(&oncoming));
+            Cycle { tracks, detections: Some(list(&[])), ..fail_safe }
         }
         "cells" => Cycle { grid: Some(cells), ..at_rest },
         _ => Cycle { grid: Some(cells), profile: Profile::PAPER, ..at_rest },
@@ -132,6 +130,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let most = match stage {
         None => most.input,
         Some(Stage::Iv) if cycle.profile == Profile::HARDENED => most.stages[3] + most.fail_safe,
+        // Unknown cells and the border are looked at, too, where there are no detections.
+        Some(Stage::V) => 3 * most.stages[4],
         Some(stage) => most.stages[*stage as usize],
     };
     let mut it = Contestant::new(&cycle);
@@ -147,7 +147,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// end, which goes along.
 fn folded(count: u32) -> Vec<CrossSection> {
     let cross_section = |i: u32| {
-        let (x, y) = (if i % 2 == 0 { -500.0 } else { 500.0 }, 1e-4 * f64::from(i));
+        let side = if i % 2 == 0 { -1.0 } else { 1.0 };
+        let (x, y) = (500.0 * side, 5.0 * side + 1e-4 * f64::from(i));
         let half: f64 = if i + 2 < count { 0.0 } else { 0.5 };
         CrossSection { x, y, left: [x, y + half.copysign(x)], right: [x, y - half.copysign(x)] }
     };

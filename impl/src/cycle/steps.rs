@@ -8,12 +8,13 @@ use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
 use crate::numbers::range::larger;
 
-/// Of H-14: a motion, a place, a box around places, a pair of a detection and an item, one that is looked for
+/// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one that is looked for
 /// in other lists, an item there, a segment of the route.
-pub(crate) const MOTION: u64 = 128;
-pub(crate) const PLACE: u64 = 64;
-pub(crate) const BOX: u64 = 16;
-pub(crate) const PAIR: u64 = 8;
+pub(crate) const MOTION: u64 = 160;
+pub(crate) const PIECE: u64 = 160;
+pub(crate) const PLACE: u64 = 160;
+pub(crate) const BOX: u64 = 40;
+pub(crate) const PAIR: u64 = 16;
 pub(crate) const SUPPORT: u64 = 64;
 pub(crate) const ITEM: u64 = 2;
 pub(crate) const SEGMENT: u64 = 32;
@@ -157,9 +158,13 @@ pub struct Steps {
 
 impl Steps {
     /// All together. Source: `spec/4-arithmetic.md#steps`.
+    ///
+    /// Unknown cells and the border of the grid are looked at where there are no detections; these go to
+    /// stages i and iv.
     pub fn total(&self) -> u64 {
-        let before = self.input.saturating_add(self.fail_safe);
-        self.stages.iter().fold(before, |sum, steps| sum.saturating_add(*steps))
+        let &Self { input, stages: [i, ii, iii, iv, v], fail_safe } = self;
+        let either = i.saturating_add(iv).max(v.saturating_mul(2));
+        sum([input, ii, iii, v, either, fail_safe])
     }
 }
 
@@ -173,29 +178,28 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
     let (few, many) = (t.min(columns), t.max(columns));
     let assignment = product([few, few, many]).min(limit);
     let poses = p.saturating_add(k);
-    let words = counts.disk_rows.saturating_add(counts.cav_rows).wrapping_div(57).saturating_add(3);
-    let at_poses = [
-        product([16, counts.disk_rows.saturating_add(counts.cav_rows), words]),
-        product([disks, 64]),
-        product([disks, counts.disk_rows, 48]),
-    ];
-    let runs = if t.max(d) == 0 { 0 } else { 1 };
+    let rows = counts.disk_rows.saturating_add(counts.cav_rows);
+    let words = rows.wrapping_div(57).saturating_add(3);
+    let of_disk = sum([340, product([20, counts.disk_rows])]);
+    let has_objects = u64::from(t.max(d) > 0);
     Steps {
         input: sum([product([64, t]), product([t, t]), product([32, p]), product([128, d])]),
         stages: [
             sum([
-                product([64, t.saturating_add(d).saturating_add(items)]),
-                product([4, t, d.saturating_add(items)]),
-                product([32, few, t.saturating_add(columns)]),
+                product([64, sum([t, d, items])]),
+                product([3, t, d.saturating_add(items)]),
+                // For each track of the assignment some for each track and column; of at most so many.
+                product([64, many.saturating_add(assignment.saturating_mul(many).isqrt())]),
                 product([3, assignment]),
             ]),
-            sum([product([64, poses]), product([4, p, s])]),
-            sum([product([64, p]), product([12, p, t])]),
-            sum([product([64, p]), product([12, p, d])]),
+            sum([product([64, poses]), product([32, p, s])]),
+            sum([product([64, p]), product([20, p, t])]),
+            sum([product([64, p]), product([20, p, d])]),
             if counts.disk_rows == 0 {
                 0
             } else {
-                sum([product([poses, sum(at_poses)]), product([200, counts.way_rows, words])])
+                let at_pose = sum([product([8, rows, words]), product([disks, of_disk])]);
+                sum([product([poses, at_pose]), product([200, counts.way_rows, words])])
             },
         ],
         fail_safe: if k == 0 {
@@ -203,10 +207,10 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
         } else {
             sum([
                 product([64, poses]),
-                product([6, k, s]),
+                product([10, k, s]),
                 product([4, d, t.saturating_add(d)]),
                 // One motion more than is too much.
-                product([runs, motion(k, s)]),
+                product([has_objects, motion(poses, s)]),
                 limit.min(fail_safe_work(counts)),
             ])
         },
@@ -227,7 +231,7 @@ fn fail_safe_work(counts: &Counts) -> u64 {
 
 /// The most that one motion takes.
 fn motion(places: u64, cross_sections: u64) -> u64 {
-    sum([512, product([256, places]), product([SEGMENT, cross_sections])])
+    sum([1280, product([768, places]), product([SEGMENT, cross_sections])])
 }
 
 fn sum<const N: usize>(terms: [u64; N]) -> u64 {

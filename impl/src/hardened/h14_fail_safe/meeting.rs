@@ -5,7 +5,7 @@
 
 use core::cell::LazyCell;
 
-use crate::cycle::steps::{BOX, MOTION, PLACE};
+use crate::cycle::steps::{BOX, MOTION, PIECE, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
@@ -180,6 +180,7 @@ impl<'c, 'a> Places<'c, 'a> {
             done = last.saturating_add(1);
             let pieces = start.clone()?.take(done.saturating_sub(first));
             pieces.skip(from.saturating_sub(first)).find_map(|piece| {
+                work.add(PIECE);
                 let misses = |run| {
                     work.add(BOX);
                     self.run(&piece, run, clock).misses(object, clock)

@@ -142,6 +142,9 @@ impl Motions<'_, '_, '_> {
         let rate = 1.0 / usable.age;
         squares.for_each_in(scratch.columns, around, |item, before| {
             self.lists.work.add(PAIR);
+            if self.lists.work.is_too_much() {
+                return;
+            }
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = now.coming_from(before, usable.age_ns, rate);
             if x * x + y * y <= reach * reach {
@@ -173,6 +176,9 @@ impl Motions<'_, '_, '_> {
         let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
         squares.for_each_in(scratch.columns, area, |item, before| {
             self.lists.work.add(PAIR);
+            if self.lists.work.is_too_much() {
+                return;
+            }
             let (x, y) = (now.x - before[0], now.y - before[1]);
             if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
                 return;

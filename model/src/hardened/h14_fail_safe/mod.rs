@@ -63,11 +63,11 @@ pub fn steps_of_pairs(scene: &Scene) -> i128 {
     detections * longest * (512 + 8 * lists.iter().sum::<i128>())
 }
 
-/// motions * (512 + 256 * (places + points) + 32 * cross sections).
+/// motions * (1280 + 768 * (places + points) + 32 * cross sections).
 pub fn steps_of_motions(scene: &Scene, trajectory: &[Point]) -> i128 {
     let along = path::count(scene, trajectory) + trajectory.len() as i128;
     let cross_sections = scene.route.cross_sections.len() as i128;
-    all_motions(scene).len() as i128 * (512 + 256 * along + 32 * cross_sections)
+    all_motions(scene).len() as i128 * (1280 + 768 * along + 32 * cross_sections)
 }
 
 /// What the model compares: (places + points) times tracks, plus detections times items of the longest usable list (at least 1)
