@@ -23,30 +23,30 @@ pub(crate) const SEGMENT: u64 = 32;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Tracks.
-    pub tracks: u64,
+    pub tracks: u32,
     /// Points of the trajectory.
-    pub points: u64,
+    pub points: u32,
     /// Detections of the longest list, be it the current one.
-    pub detections: u64,
+    pub detections: u32,
     /// Lists of the history.
-    pub lists: u64,
+    pub lists: u32,
     /// Cross sections of the route.
-    pub cross_sections: u64,
+    pub cross_sections: u32,
     /// Places of the path (H-14); 0 where no rule looks at them.
-    pub places: u64,
+    pub places: u32,
     /// Rows of cells that a disk covers; 0 without a grid.
-    pub disk_rows: u64,
+    pub disk_rows: u32,
     /// Rows of cells that the CAV is long.
-    pub cav_rows: u64,
+    pub cav_rows: u32,
     /// Rows of cells that the way to `s_stop` is long.
-    pub way_rows: u64,
+    pub way_rows: u32,
 }
 
 /// A list of `Counts`, for its name.
-type List = (&'static str, fn(&mut Counts) -> &mut u64);
+pub(crate) type List = (&'static str, fn(&mut Counts) -> &mut u32);
 
-/// What may be too long, as the settings and the memory call it.
-const LISTS: [List; 6] = [
+/// What may be too long: what memory is lent for, and what else a cycle may have too much of.
+pub(crate) const LISTS: [List; 6] = [
     ("tracks", |it| &mut it.tracks),
     ("detections", |it| &mut it.detections),
     ("cross_sections", |it| &mut it.cross_sections),
@@ -119,13 +119,18 @@ impl Counts {
 
     /// The list that is too long by itself for so many steps, how long it is, and how long it may be: of
     /// several that without which the fewest steps are left. Source: `spec/4-arithmetic.md#steps`.
-    pub fn too_long(&self, parameters: &Parameters, most: u64) -> (&'static str, u64, u64) {
-        let with = |list: &List, length: u64| {
+    pub(crate) fn too_long(
+        &self,
+        parameters: &Parameters,
+        most: u64,
+        among: &[List],
+    ) -> Option<(&'static str, u32, u32)> {
+        let with = |list: &List, length: u32| {
             let mut counts = *self;
             *(list.1)(&mut counts) = length;
             steps(&counts, parameters).total()
         };
-        let longest = LISTS.iter().min_by_key(|list| with(list, 0)).unwrap_or(&LISTS[0]);
+        let longest = among.iter().min_by_key(|list| with(list, 0))?;
         let given = *(longest.1)(&mut { *self });
         let (mut fits, mut above) = (0, given);
         while fits < above {
@@ -136,7 +141,7 @@ impl Counts {
                 above = middle.saturating_sub(1);
             }
         }
-        (longest.0, given, fits)
+        Some((longest.0, given, fits))
     }
 }
 
@@ -170,17 +175,21 @@ impl Steps {
 
 /// The most steps that a cycle of these sizes takes. Source: `spec/4-arithmetic.md#steps`.
 pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
-    let &Counts { tracks: t, points: p, detections: d, cross_sections: s, places: k, .. } = counts;
-    let items = d.saturating_mul(counts.lists);
+    let &Counts { tracks, points, detections, lists, cross_sections, places, .. } = counts;
+    let [t, p, d] = [tracks, points, detections].map(u64::from);
+    let [s, k, lists] = [cross_sections, places, lists].map(u64::from);
+    let [disk_rows, cav_rows, way_rows] =
+        [counts.disk_rows, counts.cav_rows, counts.way_rows].map(u64::from);
+    let items = d.saturating_mul(lists);
     let limit = u64::try_from(parameters.work_limit).unwrap_or(0);
     let disks = u64::try_from(parameters.n).unwrap_or(0);
     let columns = d.saturating_add(u64::try_from(parameters.miss_budget).unwrap_or(0).min(t));
     let (few, many) = (t.min(columns), t.max(columns));
     let assignment = product([few, few, many]).min(limit);
     let poses = p.saturating_add(k);
-    let rows = counts.disk_rows.saturating_add(counts.cav_rows);
+    let rows = disk_rows.saturating_add(cav_rows);
     let words = rows.wrapping_div(57).saturating_add(3);
-    let of_disk = sum([340, product([20, counts.disk_rows])]);
+    let of_disk = sum([340, product([20, disk_rows])]);
     let has_objects = u64::from(t.max(d) > 0);
     Steps {
         input: sum([product([64, t]), product([t, t]), product([32, p]), product([128, d])]),
@@ -195,11 +204,11 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
             sum([product([64, poses]), product([32, p, s])]),
             sum([product([64, p]), product([20, p, t])]),
             sum([product([64, p]), product([20, p, d])]),
-            if counts.disk_rows == 0 {
+            if disk_rows == 0 {
                 0
             } else {
                 let at_pose = sum([product([8, rows, words]), product([disks, of_disk])]);
-                sum([product([poses, at_pose]), product([200, counts.way_rows, words])])
+                sum([product([poses, at_pose]), product([200, way_rows, words])])
             },
         ],
         fail_safe: if k == 0 {
@@ -219,14 +228,14 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
 
 /// The steps of H-14 that count for `work_limit`, of as many motions as there may be.
 fn fail_safe_work(counts: &Counts) -> u64 {
-    let &Counts { tracks, points, detections: d, lists, places, cross_sections, .. } = counts;
+    let &Counts { tracks, points, detections, lists, places, cross_sections, .. } = counts;
+    let [tracks, d, lists, cross_sections] =
+        [tracks, detections, lists, cross_sections].map(u64::from);
+    let along = u64::from(places).saturating_add(u64::from(points));
     let longest = if lists == 0 { 1 } else { d.max(1) };
     let motions = sum([tracks, product([2, d, longest]), d]);
     let of_pairs = sum([512, product([8, lists, d])]);
-    sum([
-        product([d, longest, of_pairs]),
-        product([motions, motion(places.saturating_add(points), cross_sections)]),
-    ])
+    sum([product([d, longest, of_pairs]), product([motions, motion(along, cross_sections)])])
 }
 
 /// The most that one motion takes.
@@ -242,12 +251,12 @@ fn product<const N: usize>(factors: [u64; N]) -> u64 {
     factors.into_iter().fold(1, u64::saturating_mul)
 }
 
-fn count(items: usize) -> u64 {
-    u64::try_from(items).unwrap_or(u64::MAX)
+fn count(items: usize) -> u32 {
+    u32::try_from(items).unwrap_or(u32::MAX)
 }
 
 /// A whole number that is not less; the most where it is none.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
-fn whole(number: f64) -> u64 {
-    larger(libm::ceil(number), 0.0) as u64
+fn whole(number: f64) -> u32 {
+    larger(libm::ceil(number), 0.0) as u32
 }

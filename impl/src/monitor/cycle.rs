@@ -9,7 +9,7 @@ use super::settings::{MonitorError, Settings};
 use super::stall::Stall;
 use super::time::Time;
 use crate::cycle::check_with;
-use crate::cycle::steps::Counts;
+use crate::cycle::steps::{Counts, LISTS};
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
@@ -245,7 +245,7 @@ fn in_time(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Result<(),
     if counts.is_within(known) {
         return Ok(());
     }
-    settings.check_steps(&counts).map_err(|error| {
+    settings.check_steps(&counts, &LISTS).map_err(|error| {
         let field =
             if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
         InvalidInput { field, index: None, problem: Problem::TooMany }

@@ -75,7 +75,7 @@ pub(crate) const PLACES: usize = 12;
 /// let other = Monitor::new(settings, lent.memory())?;
 ///
 /// assert_eq!(size_of::<Lent>(), 80_864);
-/// assert!(size_of_val(&monitor) < 2048 && size_of_val(&other) < 2048);
+/// assert!(size_of_val(&monitor) < 2112 && size_of_val(&other) < 2112);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -152,7 +152,7 @@ impl Lengths {
 
     /// The longest lists that fit, within the domain, and of the rest what is usual.
     pub(super) fn counts(self, profile: Profile, capacity: usize, cross_sections: usize) -> Counts {
-        let most = |given: usize, domain: u64| u64::try_from(given).unwrap_or(domain).min(domain);
+        let most = |given: usize, domain: u32| u32::try_from(given).unwrap_or(domain).min(domain);
         let looks_back = profile.looks_back();
         let usual = Counts::USUAL;
         Counts {

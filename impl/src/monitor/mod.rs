@@ -13,6 +13,7 @@
 //! out is examined as moving (H-14). Both show in [`Requester::hold_until_ns`].
 
 pub(crate) mod arriving;
+mod calibration;
 mod cycle;
 mod decision;
 mod element;
@@ -41,7 +42,7 @@ use self::memory::Lengths;
 use self::route::KeptRoute;
 use self::served::Served;
 use self::stall::Progress;
-use crate::cycle::steps::Counts;
+use crate::cycle::steps::{Counts, LISTS};
 use crate::input::cycle::Route;
 use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::per_group::PerGroup;
@@ -87,7 +88,8 @@ impl<'a> Monitor<'a> {
         };
         let capacity = lengths.capacity(settings.profile.looks_back())?;
         let in_time = lengths.counts(settings.profile, capacity, cross_sections.len());
-        settings.check_steps(&in_time)?;
+        let lent = LISTS.split_at(3).0;
+        settings.check_steps(&in_time, lent)?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
         Ok(Self {
@@ -103,6 +105,13 @@ impl<'a> Monitor<'a> {
             rows,
             columns,
         })
+    }
+
+    /// Takes about 10^5 steps and says how many: measure how long it takes, several times, on the processor
+    /// and with the build that the vehicle uses. The longest time in ps, divided by these steps, is
+    /// `Settings::step_ps`. Source: `spec/4-arithmetic.md#steps`.
+    pub fn calibrate() -> u64 {
+        calibration::run()
     }
 
     /// From now on the CAV follows this route, of which a copy is kept.

@@ -5,7 +5,7 @@ use core::time::Duration;
 
 use super::stall::Stall;
 use super::time::Time;
-use crate::cycle::steps::{Counts, steps};
+use crate::cycle::steps::{Counts, List, steps};
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -130,14 +130,15 @@ impl Settings {
         u64::try_from(steps).unwrap_or(u64::MAX)
     }
 
-    /// Whether all that a monitor has room for is checked in time, with as much of the rest as is usual.
-    pub(super) fn check_steps(&self, counts: &Counts) -> Result<(), MonitorError> {
+    /// Whether so much is checked in time; if not, which list of these is too long.
+    pub(super) fn check_steps(&self, counts: &Counts, among: &[List]) -> Result<(), MonitorError> {
         let (most_steps, stages) = (self.most_steps(), &self.stages);
         let steps = steps(counts, stages).total();
         if steps <= most_steps {
             return Ok(());
         }
-        let (list, given, most) = counts.too_long(stages, most_steps);
+        let too_long = counts.too_long(stages, most_steps, among);
+        let (list, given, most) = too_long.unwrap_or(("check_time", 0, 0));
         Err(MonitorError::TooSlow { list, given, most, steps, most_steps })
     }
 
@@ -233,9 +234,9 @@ pub enum MonitorError {
         /// The list that is too long.
         list: &'static str,
         /// How long it may become.
-        given: u64,
+        given: u32,
         /// How long it may be while all others are as they are; 0 where it alone does not help.
-        most: u64,
+        most: u32,
         /// The steps that a run of the stages may take.
         steps: u64,
         /// And that it may take in `check_time`.
