@@ -56,19 +56,22 @@ pub(crate) const LISTS: [List; 6] = [
 ];
 
 impl Counts {
-    /// What a monitor is not lent memory for, nor told: 128 points, the 243 places at 30 m/s, and cells of
-    /// 0.2 m under a car of 4.8 m by 1.9 m in four disks. What is more, the cycle refuses if all is too much.
-    pub(crate) const USUAL: Self = Self {
-        tracks: 0,
-        points: 128,
-        detections: 0,
-        lists: 3,
-        cross_sections: 0,
-        places: 256,
-        disk_rows: 17,
-        cav_rows: 24,
-        way_rows: 320,
-    };
+    /// Memory for so many tracks, detections and cross sections, and what it does not bound as it usually is: 128
+    /// points, the 243 places at 30 m/s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks.
+    pub(crate) fn lent(profile: Profile, lent: [usize; 3]) -> Self {
+        let [tracks, detections, cross_sections] = lent.map(count);
+        Self {
+            tracks: tracks.min(1024),
+            points: 128,
+            detections: detections.min(2048),
+            lists: if profile.looks_back() { 3 } else { 0 },
+            cross_sections: cross_sections.min(8192),
+            places: if looks_along(profile) { 256 } else { 0 },
+            disk_rows: 17,
+            cav_rows: 30,
+            way_rows: 360,
+        }
+    }
 
     /// Of this cycle. Source: `spec/4-arithmetic.md#steps`.
     pub fn of(cycle: &Cycle<'_>) -> Self {
@@ -259,4 +262,41 @@ fn count(items: usize) -> u32 {
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
 fn whole(number: f64) -> u32 {
     larger(libm::ceil(number), 0.0) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Counts, LISTS, steps};
+    use crate::input::parameters::Parameters;
+    use crate::random::Random;
+
+    /// IMPL-12: what fits with the longest lists fits with shorter ones.
+    #[test]
+    fn more_of_anything_takes_no_fewer_steps() {
+        let mut random = Random::new(32);
+        for _ in 0..20_000 {
+            let mut below = |most: u32| u32::try_from(random.below(most.into())).unwrap_or(0);
+            let counts = Counts {
+                tracks: below(1025),
+                points: below(1025),
+                detections: below(2049),
+                lists: below(5),
+                cross_sections: below(8193),
+                places: below(100_000),
+                disk_rows: below(3000),
+                cav_rows: below(10_000),
+                way_rows: below(1_000_000),
+            };
+            let work_limit = i64::from(below(u32::MAX)) >> below(32);
+            let parameters = Parameters { work_limit, ..Parameters::default() };
+            let total = |counts| steps(&counts, &parameters).total();
+            let mut longer = [counts; 8];
+            LISTS.iter().zip(&mut longer).for_each(|(list, it)| *(list.1)(it) += 1);
+            longer[6].cav_rows += 1;
+            longer[7].way_rows += 1;
+            for more in longer {
+                assert!(total(counts) <= total(more), "{counts:?}, {more:?}, {work_limit}");
+            }
+        }
+    }
 }

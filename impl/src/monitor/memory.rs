@@ -1,10 +1,8 @@
 //! The memory that a monitor is lent for its life (`spec/monitor.md#monitor`).
 
 use super::settings::MonitorError;
-use crate::cycle::steps::{Counts, looks_along};
 use crate::input::cycle::{CrossSection, Detection};
 use crate::input::detection_index::Slot;
-use crate::input::profile::Profile;
 use crate::input::route_index::Block;
 use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::StationRecord;
@@ -148,20 +146,5 @@ impl Lengths {
             }
         }
         Ok(capacity)
-    }
-
-    /// The longest lists that fit, within the domain, and of the rest what is usual.
-    pub(super) fn counts(self, profile: Profile, capacity: usize, cross_sections: usize) -> Counts {
-        let most = |given: usize, domain: u32| u32::try_from(given).unwrap_or(domain).min(domain);
-        let looks_back = profile.looks_back();
-        let usual = Counts::USUAL;
-        Counts {
-            tracks: most(self.rows, 1024),
-            detections: most(if looks_back { capacity } else { self.columns }, 2048),
-            lists: if looks_back { usual.lists } else { 0 },
-            cross_sections: most(cross_sections, 8192),
-            places: if looks_along(profile) { usual.places } else { 0 },
-            ..usual
-        }
     }
 }

@@ -42,7 +42,7 @@ use self::memory::Lengths;
 use self::route::KeptRoute;
 use self::served::Served;
 use self::stall::Progress;
-use crate::cycle::steps::{Counts, LISTS};
+use crate::cycle::steps::Counts;
 use crate::input::cycle::Route;
 use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::per_group::PerGroup;
@@ -87,9 +87,8 @@ impl<'a> Monitor<'a> {
             slots: slots.len(),
         };
         let capacity = lengths.capacity(settings.profile.looks_back())?;
-        let in_time = lengths.counts(settings.profile, capacity, cross_sections.len());
-        let lent = LISTS.split_at(3).0;
-        settings.check_steps(&in_time, lent)?;
+        let detected = if settings.profile.looks_back() { capacity } else { columns.len() };
+        let in_time = settings.in_time([rows.len(), detected, cross_sections.len()])?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
         Ok(Self {

@@ -5,7 +5,7 @@ use core::time::Duration;
 
 use super::stall::Stall;
 use super::time::Time;
-use crate::cycle::steps::{Counts, List, steps};
+use crate::cycle::steps::{Counts, LISTS, List, steps};
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -128,6 +128,27 @@ impl Settings {
         let steps = ps.checked_div(u128::from(self.step_ps)).unwrap_or(u128::MAX);
         let steps = if self.supervise_local { steps >> 1 } else { steps };
         u64::try_from(steps).unwrap_or(u64::MAX)
+    }
+
+    /// Whether what fits into memory for so many tracks, detections and cross sections is checked in time, with
+    /// 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
+    /// is too much.
+    ///
+    /// Errors: which of the lists is too long. Source: `spec/4-arithmetic.md#steps`.
+    pub fn check_lists(
+        &self,
+        tracks: usize,
+        detections: usize,
+        cross_sections: usize,
+    ) -> Result<(), MonitorError> {
+        self.in_time([tracks, detections, cross_sections]).map(drop)
+    }
+
+    /// The same, and how long everything may be.
+    pub(super) fn in_time(&self, lent: [usize; 3]) -> Result<Counts, MonitorError> {
+        let counts = Counts::lent(self.profile, lent);
+        self.check_steps(&counts, LISTS.split_at(lent.len()).0)?;
+        Ok(counts)
     }
 
     /// Whether so much is checked in time; if not, which list of these is too long.
