@@ -46,16 +46,16 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     row(Stage::Ii, "128 points on 1024 cross sections of a road without width", &cycle);
     let standing = timed(vec![point(0.0, 0.0); POINTS]);
     let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
-    let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
+    let touching = 0.5 * (base.ego.width + 1.8) + 1e-8;
     let near: Vec<_> = (0..i64::from(TRACKS)).map(|id| track(id, 0.0, touching)).collect();
     let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
-    row(Stage::Iii, "128 tracks 1 nm beside the CAV at 128 points", &cycle);
+    row(Stage::Iii, "128 tracks 10 nm beside the CAV at 128 points", &cycle);
     let far = [detection(0.0, 500.0)];
     let cycle = Cycle { detections: Some(list(&far)), ..cycle };
     row(Stage::Iv, "the same tracks in H-14, one detection far off", &cycle);
     let beside = neighbours(&still, DETECTIONS);
     let cycle = Cycle { detections: Some(list(&beside)), ..still };
-    row(Stage::Iv, "256 detections 1 nm beside the CAV at 128 points", &cycle);
+    row(Stage::Iv, "256 detections 10 nm beside the CAV at 128 points", &cycle);
     // H-14 compares each with each at each point; beyond its limits it fails at once.
     let before = earlier(&beside, 500);
     let with = |count: usize| {
@@ -78,9 +78,9 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     row(Stage::V, "128 points on an empty grid of 4096 x 4096 cells of 1 cm", &cycle);
 }
 
-/// So many detections at the same place, 1 nm beside the CAV where it stands.
+/// So many detections at the same place, 10 nm beside the CAV where it stands.
 pub fn neighbours(still: &Cycle<'_>, count: u32) -> Vec<Detection> {
-    let touching = 0.5 * (still.ego.width + 1.8) + 1e-9;
+    let touching = 0.5 * (still.ego.width + 1.8) + 1e-8;
     (0..count).map(|_| detection(0.0, touching)).collect()
 }
 

@@ -80,8 +80,7 @@ pub enum Rule {
     Ambiguous,
     /// Stage i: mean assignment cost < `theta_tr`.
     MeanCost,
-    /// Stages i and iv: the assignment, or H-14, would take more work than `work_limit`. Stages iii and iv:
-    /// more than 1024 pairs are close, of points and objects, or of places and motions (H-14).
+    /// Stages i and iv: the assignment, or H-14, would take more work than `work_limit`.
     WorkLimit,
     /// H-01: fewer pairs closer than `theta_track_max` than tracks to be matched.
     NoAssignment,

@@ -68,8 +68,7 @@ macro_rules! witness_rules {
             Ambiguous = "ambiguous";
             /// Stage i: mean assignment cost < theta_tr.
             MeanCost = "mean_cost";
-            /// Strict only. Stages i and iv: the assignment, or H-14, would take more work than work_limit.
-            /// Stages iii and iv: more than 1024 close calls, of LLCC or of H-14.
+            /// Stages i and iv, strict only: the assignment, or H-14, would take more work than work_limit.
             WorkLimit = "work_limit";
             /// H-01: fewer pairs closer than theta_track_max than tracks to be matched.
             NoAssignment = "no_assignment";

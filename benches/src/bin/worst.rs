@@ -52,14 +52,14 @@ fn main() {
     report_without_index("ii", "1024 points on it", &cycle, Stage::Ii);
 
     let standing = timed(vec![point(0.0, 0.0); 1024]);
-    let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
+    let touching = 0.5 * (base.ego.width + 1.8) + 1e-8;
     let near: Vec<_> = (0..1024).map(|id| track(id, 0.0, touching)).collect();
     let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
     let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
-    report("iii", "1024 tracks 1 nm beside the CAV at 1024 points", &cycle, Stage::Iii);
+    report("iii", "1024 tracks 10 nm beside the CAV at 1024 points", &cycle, Stage::Iii);
     let near = vec![detection(0.0, touching); 2048];
     let cycle = Cycle { detections: Some(list(&near)), ..still };
-    report("iv", "2048 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
+    report("iv", "2048 detections 10 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
 
     history(&base, &still);
 
@@ -98,7 +98,7 @@ fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
 
     let beside = neighbours(still, 48);
     let cycle = Cycle { detections: Some(list(&beside)), ..*still };
-    report("iv", "48 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
+    report("iv", "48 detections 10 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
     let earlier = [300, 500, 800].map(|ms| self::earlier(&beside, ms));
     let cycle = Cycle { detection_history: &earlier, ..cycle };
     report("iv", "the same with 3 earlier lists like that (H-14)", &cycle, Stage::Iv);

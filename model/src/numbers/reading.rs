@@ -110,7 +110,7 @@ impl Comparisons {
         }
     }
 
-    /// Whether work, or a number of close calls, makes the stage fail: an implementation may answer
+    /// Whether the work that an assignment takes makes the stage fail: an implementation may answer
     /// so, and only the strict reading counts on it.
     pub fn refuses(&self, work: i128, limit: i128) -> bool {
         self.is_strict() && work > limit

@@ -23,7 +23,7 @@ pub fn trajectory_with_tracks(
         predicted(track, &Real::seconds(t_ns))
     };
     first_collision(scene, points, &tracks.items, predicted)
-        .map(|(j, witness)| Witness { track: j.map(|j| tracks.items[j].id), ..witness })
+        .map(|(j, witness)| Witness { track: Some(tracks.items[j].id), ..witness })
 }
 
 /// The CV model: the track moved by v t, of either sign, with unchanged direction.

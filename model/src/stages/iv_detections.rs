@@ -22,7 +22,7 @@ pub fn trajectory_with_detections(
         let s_valid = s_valid(&scene.ego.v_now, v_lead, &p.a_b, &p.safety_time);
         let points = points_within(scene, trajectory, &s_valid);
         first_collision(scene, points, &detections.items, |_, d| d.clone())
-            .map(|(j, witness)| Witness { detection: j, ..witness })
+            .map(|(j, witness)| Witness { detection: Some(j), ..witness })
     })
 }
 

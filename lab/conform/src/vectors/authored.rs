@@ -120,8 +120,6 @@ enum Shape {
     },
     /// So many tracks side by side, id and y counted on from those of the first.
     Row(u32, Facts),
-    /// So many alike, an id counted on from that of the first.
-    Same(u32, BTreeMap<String, Raw>),
     /// Earlier lists of detections, by their age.
     Lists(Vec<Earlier>),
     /// The bitmap of a grid of this width and height with these cells (column, row) set.
@@ -353,17 +351,6 @@ fn written_out(pointer: &str, value: Raw) -> serde_json::Result<Raw> {
                 tracks.push(fields.clone());
             }
             return to_raw_value(&tracks);
-        }
-        Ok(Shape::Same(count, first)) => {
-            let alike = |i: i64| -> serde_json::Result<_> {
-                let mut item = first.clone();
-                if let Some(id) = item.get_mut("id") {
-                    *id = to_raw_value(&(from_str::<i64>(id.get())? + i))?;
-                }
-                Ok(item)
-            };
-            let items: Vec<_> = (0..count.into()).map(alike).collect::<Result<_, _>>()?;
-            return written_out(pointer, to_raw_value(&items)?);
         }
         Ok(Shape::Lists(lists)) => {
             let list = |Earlier { age_ns, items }: Earlier| -> serde_json::Result<_> {

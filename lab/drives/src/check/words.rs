@@ -96,7 +96,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
     match witness.rule {
         Rule::Ambiguous => ("what the CAV saw itself is too close to call".to_owned(), "", "~"),
         Rule::MeanCost => ("mean distance of the assigned pairs".to_owned(), "m", ">="),
-        Rule::WorkLimit => ("work or close calls of the stage".to_owned(), "", ">"),
+        Rule::WorkLimit => ("work of the stage".to_owned(), "", ">"),
         Rule::NoAssignment => {
             ("tracks that can be paired below theta_track_max".to_owned(), "", "<")
         }

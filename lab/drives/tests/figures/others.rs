@@ -65,12 +65,9 @@ fn across(sheet: &mut Sheet) {
         pen.rectangle(&cav(&scene, &own(&scene)), "cav");
         pen.rectangle(&inner(&scene, false), "inner");
         for motion in all_motions(&scene) {
-            let behind = is_behind(&scene, &scene.reads, &motion);
-            let words = if comes_across(&scene, &scene.reads, &motion, behind) {
-                "comes across"
-            } else {
-                "does not"
-            };
+            let behind = is_behind(&scene, &motion);
+            let words =
+                if comes_across(&scene, &motion, behind) { "comes across" } else { "does not" };
             named(pen, &motion, words, 1.4);
         }
     });
@@ -100,8 +97,8 @@ fn following(sheet: &mut Sheet) {
     sheet.panel(&look, |pen| {
         pen.rectangle(&cav(&scene, &own(&scene)), "cav");
         for motion in all_motions(&scene) {
-            let behind = is_behind(&scene, &scene.reads, &motion);
-            let comes_across = comes_across(&scene, &scene.reads, &motion, behind);
+            let behind = is_behind(&scene, &motion);
+            let comes_across = comes_across(&scene, &motion, behind);
             let words = match (behind, follows(&scene, &motion, comes_across, behind)) {
                 (_, true) => "behind, follows",
                 (true, false) => "behind, examined",
@@ -191,7 +188,7 @@ fn panel(
     }));
     let points = scene.trajectory.as_ref().expect("it is current");
     let motion = &all_motions(&scene)[0];
-    let behind = is_behind(&scene, &scene.reads, motion);
+    let behind = is_behind(&scene, motion);
     assert_eq!(
         BesideRoute::new(&scene, points).keeps_beside(&scene, motion, behind),
         is_beside,

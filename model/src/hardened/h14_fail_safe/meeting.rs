@@ -4,76 +4,43 @@
 use std::cell::LazyCell;
 
 use crate::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
-use crate::hardened::h14_fail_safe::path::{self, Place, places};
+use crate::hardened::h14_fail_safe::path::{Place, places};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
-use crate::numbers::reading::{Comparisons, Reading};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, is_swept_over, is_swept_over_between, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
-use crate::stages::llcc::{by_one_cm, cav, too_many_close};
-
-/// A motion, whether it is examined, and the end of its window where the CAV may stand, also in the lax reading.
-struct Other {
-    motion: Motion,
-    is_examined: bool,
-    ends: [Real; 2],
-}
+use crate::stages::llcc::cav;
 
 /// The first place at which a motion that is examined sweeps over the CAV in its window, and of these
-/// motions the first. Without one, strictly: too many places and motions that are close.
+/// motions the first.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let (reads, lax) = (&scene.reads, Comparisons::new(Reading::Lax, scene.reads.delta.clone()));
-    let others = others(scene, &lax, trajectory);
+    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
+    let examined: Vec<(Motion, bool, Real)> = (all_motions(scene).into_iter())
+        .filter_map(|motion| {
+            let behind = is_behind(scene, &motion);
+            let comes_across = comes_across(scene, &motion, behind);
+            let is_examined = !follows(scene, &motion, comes_across, behind)
+                && !beside_route.keeps_beside(scene, &motion, behind);
+            let margin = margin(scene, &motion);
+            is_examined.then_some((motion, comes_across, margin))
+        })
+        .collect();
     let driving = Driving::of(scene);
-    let pairs = path::count(scene, trajectory) * others.len() as i128;
-    let counts = too_many_close(reads, pairs).is_some();
-    let mut count = 0;
-    let meeting = places(scene, trajectory).enumerate().find_map(|(k, place)| {
-        let window = |reads| window(reads, &driving, &place.way_before, place.way_after.as_ref());
-        let (window, lax_window) = (window(reads), window(&lax));
+    places(scene, trajectory).enumerate().find_map(|(k, place)| {
+        let window = window(&scene.reads, &driving, &place.way_before, place.way_after.as_ref());
         let cav = wider(scene, trajectory, &place.pose);
-        let raised = cav.with_halves(|half| reads.raised(half));
-        let [less, greater] = by_one_cm().map(|reads| cav.with_halves(|half| reads.raised(half)));
-        let other = others.iter().find(|Other { motion, is_examined, ends: [end, lax_end] }| {
-            if !counts && !is_examined {
-                return false;
-            }
-            let strip = strip(scene, &window, motion, end);
-            // No margin is above 1 cm, so strictly nothing else sweeps over the CAV.
-            if counts {
-                if !strip.covers(&greater) {
-                    return false;
-                }
-                count +=
-                    i128::from(!self::strip(scene, &lax_window, motion, lax_end).covers(&less));
-            }
-            *is_examined && strip.covers(&raised)
+        let (motion, ..) = examined.iter().find(|(motion, comes_across, margin)| {
+            let cav = cav.with_halves(|half| half + margin);
+            sweeps_over(scene, &cav, &window, motion, *comes_across)
         })?;
-        let Named { track, detection, item, age_ns } = other.motion.named;
+        let Named { track, detection, item, age_ns } = motion.named;
         let witness = Witness::new(Rule::FailSafe, &place.way, &driving.s_stop());
         let witness = Witness { track, detection, item, age_ns, ..witness };
         Some(witness.at_point(trajectory.len() + k))
-    });
-    meeting.or_else(|| too_many_close(reads, count))
-}
-
-/// All motions in their order.
-fn others(scene: &Scene, lax: &Comparisons, trajectory: &[Point]) -> Vec<Other> {
-    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
-    let other = |motion| {
-        let [own, laxly] = [&scene.reads, lax].map(|reads| {
-            let behind = is_behind(scene, reads, &motion);
-            (behind, comes_across(scene, reads, &motion, behind))
-        });
-        let ends = [own, laxly].map(|(_, comes_across)| end(scene, &motion, comes_across));
-        let is_examined = !follows(scene, &motion, own.1, own.0)
-            && !beside_route.keeps_beside(scene, &motion, own.0);
-        Other { motion, is_examined, ends }
-    };
-    all_motions(scene).into_iter().map(other).collect()
+    })
 }
 
 /// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by the widening.
@@ -83,42 +50,48 @@ fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
     Rectangle { half_width, ..cav }
 }
 
+/// The margin of half the CAV's length and width at a place, m: strictly at least 10^-8 m + 10^-12 D, D being
+/// abs(x) + abs(y) of c - p, plus abs(w) (60 s + H(w)).
+fn margin(scene: &Scene, motion: &Motion) -> Real {
+    let m = scene.reads.raised(&Real::zero());
+    if !scene.reads.is_strict() {
+        return m;
+    }
+    let Vector { x, y } = &now(motion).frame.origin - &scene.ego.position;
+    let goes = &motion.speed * (Real::from_integer(60) + h(scene, motion));
+    let d = x.abs() + y.abs() + goes;
+    m.max(Real::from_double(1e-8) + Real::from_double(1e-12) * d)
+}
+
 /// abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
 fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
     let Frame { origin: x_0, direction: h_0 } = &trajectory[0].pose;
     (&scene.ego.position - x_0).cross(h_0).abs()
 }
 
-/// What an object sweeps over in a window.
-struct Strip<'a> {
-    motion: &'a Motion,
-    between: [Vector; 2],
-}
-
-/// That of a window, which ends at `end` where the CAV may stand.
-fn strip<'a>(scene: &Scene, window: &Window, motion: &'a Motion, end: &Real) -> Strip<'a> {
-    let end = window.end.as_ref().unwrap_or(end);
+/// Over the window the object sweeps over a point of the CAV's rectangle. Where the CAV may stand the window ends at
+/// H(w), and at T when the object comes across.
+fn sweeps_over(
+    scene: &Scene,
+    cav: &Rectangle,
+    window: &Window,
+    motion: &Motion,
+    comes_across: bool,
+) -> bool {
+    let end = match &window.end {
+        Some(last) => last.clone(),
+        None if comes_across => Driving::of(scene).t_stop(),
+        None => h(scene, motion),
+    };
     let least = motion.r_b(&scene.parameters.a_b, &(&motion.age + &window.begin));
     let most = &motion.speed * (&motion.age + end);
-    Strip { motion, between: [least, most].map(|r| motion.moved_by(&r)) }
-}
-
-impl Strip<'_> {
-    /// It covers a point of the CAV's rectangle.
-    fn covers(&self, cav: &Rectangle) -> bool {
-        let Motion { object, w, .. } = self.motion;
-        is_swept_over_between(cav, &object.rectangle(), w, &self.between)
-    }
-}
-
-/// Where the CAV may stand the window ends at H(w), and at T when the object comes across.
-fn end(scene: &Scene, motion: &Motion, comes_across: bool) -> Real {
-    if comes_across { Driving::of(scene).t_stop() } else { h(scene, motion) }
+    let between = [least, most].map(|r| motion.moved_by(&r));
+    is_swept_over_between(cav, &motion.object.rectangle(), &motion.w, &between)
 }
 
 /// w is not 0, and the inner rectangle shares a point with the object as it is now and goes on.
-pub fn comes_across(scene: &Scene, reads: &Comparisons, motion: &Motion, behind: bool) -> bool {
-    let inner = inner(scene, behind).with_halves(|half| reads.lowered(half));
+pub fn comes_across(scene: &Scene, motion: &Motion, behind: bool) -> bool {
+    let inner = inner(scene, behind).with_halves(|half| scene.reads.lowered(half));
     motion.w.squared() > Real::zero() && is_swept_over(&inner, &now(motion).rectangle(), &motion.w)
 }
 
@@ -138,8 +111,8 @@ pub fn inner(scene: &Scene, behind: bool) -> Rectangle {
 
 /// w . h > 0 and all of its rectangle where it is now is behind the CAV's rear:
 /// (c - c_CAV) . h + (abs(dir . h) length + abs(dir x h) width) / 2 < - L / 2.
-pub fn is_behind(scene: &Scene, reads: &Comparisons, motion: &Motion) -> bool {
-    let (h, two) = (&scene.ego.heading, Real::from_integer(2));
+pub fn is_behind(scene: &Scene, motion: &Motion) -> bool {
+    let (reads, h, two) = (&scene.reads, &scene.ego.heading, Real::from_integer(2));
     let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
     let c_cav = cav(scene, &p(scene)).frame.origin;
     let half = (dir.dot(h).abs() * length + dir.cross(h).abs() * width) / &two;
@@ -191,8 +164,7 @@ impl BesideRoute {
                 is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.way);
             let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
             let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &widening);
-            let cav =
-                wider(scene, trajectory, &place.pose).with_halves(|half| scene.reads.raised(half));
+            let cav = wider(scene, trajectory, &place.pose);
             (d_k, e_k.max().unwrap_or_else(Real::zero), cav)
         };
         let places = places(scene, trajectory).map(distances).collect();
@@ -221,6 +193,10 @@ impl BesideRoute {
             };
             !self.places.iter().all(is_apart)
         };
+        let margin = margin(scene, motion);
+        let lies_across = |(.., cav): &(Real, Real, Rectangle)| {
+            share_a_point(&cav.with_halves(|half| half + &margin), &object)
+        };
         d > zero
             && scene.reads.at_most(&d, &Real::from_integer(20))
             && goes_along(scene, motion)
@@ -228,7 +204,7 @@ impl BesideRoute {
             && if comes_towards { self.bends } else { self.bends_little }
             && is_within_ends(scene, &self.reference_path, &c)
             && !nearest.iter().any(comes_near)
-            && !self.places.iter().any(|(.., cav)| share_a_point(cav, &object))
+            && !self.places.iter().any(lies_across)
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn is_follower(cycle: &Cycle, comes_across: bool) -> [bool; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
         let motion = &all_motions(&scene)[0];
-        follows(&scene, motion, comes_across, is_behind(&scene, &scene.reads, motion))
+        follows(&scene, motion, comes_across, is_behind(&scene, motion))
     })
 }
 
@@ -37,7 +37,7 @@ pub(super) fn keeps_beside(cycle: &Cycle) -> [bool; 3] {
         let motion = &all_motions(&scene)[0];
         let trajectory = scene.trajectory.as_ref().expect("it is current");
         let beside_route = BesideRoute::new(&scene, trajectory);
-        beside_route.keeps_beside(&scene, motion, is_behind(&scene, &scene.reads, motion))
+        beside_route.keeps_beside(&scene, motion, is_behind(&scene, motion))
     })
 }
 
@@ -45,7 +45,7 @@ fn across(cycle: &Cycle) -> [bool; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
         let motion = &all_motions(&scene)[0];
-        comes_across(&scene, &scene.reads, motion, is_behind(&scene, &scene.reads, motion))
+        comes_across(&scene, motion, is_behind(&scene, motion))
     })
 }
 
