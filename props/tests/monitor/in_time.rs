@@ -26,18 +26,17 @@ fn memory([tracks, detections, cross_sections]: [usize; 3]) -> Lent {
     lent
 }
 
-/// IMPL-12: the lists of docs/configuration.md in the time of the default, 10 ms.
+/// IMPL-11: the lists of docs/configuration.md in the time of the default, 10 ms.
 #[test]
 fn the_recommended_lists_are_checked_in_time() {
     let settings = Settings::new(Duration::from_millis(50));
     assert!(Monitor::new(settings, memory([128, 256, 1024]).memory()).is_ok());
     let all = || Monitor::new(settings, memory([1024, 2048, 8192]).memory()).map(drop);
     assert!(matches!(all(), Err(MonitorError::TooSlow { most: 0, .. })));
-    let in_any_time = Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory());
-    assert!(in_any_time.is_ok());
+    assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
 }
 
-/// IMPL-12, IMPL-13: as many steps as fit are taken, one more is refused; the list that is named is too long
+/// IMPL-11, IMPL-11: as many steps as fit are taken, one more is refused; the list that is named is too long
 /// by one.
 #[test]
 fn what_just_fits_is_taken_and_one_more_refused() {
@@ -60,7 +59,7 @@ fn what_just_fits_is_taken_and_one_more_refused() {
     assert!(Monitor::new(twice, memory(lent).memory()).is_err());
 }
 
-/// IMPL-14: a trajectory that fits into no memory of the monitor, and a grid.
+/// IMPL-13: a trajectory that fits into no memory of the monitor, and a grid.
 #[test]
 fn a_cycle_that_may_be_late_is_refused() {
     let (world, road, bits) = (World::at(0), road(), [0; 8]);
@@ -115,7 +114,7 @@ fn a_cycle_that_may_be_late_is_refused() {
             Decision::Unsafe { report: Err(problem), .. } => Some(problem),
             Decision::Unsafe { report: Ok(_), .. } | Decision::Safe { .. } => None,
         };
-        let late = InvalidInput { field: "points", index: None, problem: Problem::TooMany };
+        let late = InvalidInput { field: "cells", index: None, problem: Problem::TooMany };
         assert_eq!(problem, is_late.then_some(late));
     }
 }

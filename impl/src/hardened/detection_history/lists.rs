@@ -42,6 +42,8 @@ pub(crate) struct Lists<'m, 'c, 'a> {
     pasts: [Option<Past<'c>>; 4],
     /// By squares, once they are needed.
     squares: [Option<Squares<'c>>; 4],
+    /// How many items they all have.
+    items: u64,
     /// What was done with them, and with what they show.
     pub(crate) work: Work,
 }
@@ -63,7 +65,16 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 });
             }
         }
-        Self { cycle, history, pasts, squares: [None; 4], work: Work::new(&cycle.parameters) }
+        let items = history.usable.iter().flatten().map(|list| list.items.len()).sum::<usize>();
+        let items = u64::try_from(items).unwrap_or(u64::MAX);
+        Self {
+            cycle,
+            history,
+            pasts,
+            items,
+            squares: [None; 4],
+            work: Work::new(&cycle.parameters),
+        }
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -125,7 +136,8 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             // The stage fails anyhow.
             return true;
         }
-        let (mut alone, mut items) = (true, 0);
+        self.work.add_support(self.items);
+        let mut alone = true;
         for (list, squares) in self.squares.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
             if list == place {
@@ -139,15 +151,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             let near = [around(now.x + dx), around(now.y + dy)];
             squares.for_each_in(columns, near, |_, [item_x, item_y]| {
                 let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
-                items = u64::saturating_add(items, 1);
                 supported |= x * x + y * y <= reach * reach;
             });
             if supported {
-                alone = true;
-                break;
+                return true;
             }
         }
-        self.work.add_support(items);
         alone
     }
 }

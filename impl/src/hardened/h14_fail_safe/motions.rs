@@ -141,13 +141,13 @@ impl Motions<'_, '_, '_> {
         };
         let rate = 1.0 / usable.age;
         squares.for_each_in(scratch.columns, around, |item, before| {
-            self.lists.work.add(PAIR);
             if self.lists.work.is_too_much() {
                 return;
             }
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = now.coming_from(before, usable.age_ns, rate);
             if x * x + y * y <= reach * reach {
+                self.lists.work.add(PAIR);
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
                 self.keep_pair(&motion, &pair, |_| true);
@@ -175,7 +175,6 @@ impl Motions<'_, '_, '_> {
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
         squares.for_each_in(scratch.columns, area, |item, before| {
-            self.lists.work.add(PAIR);
             if self.lists.work.is_too_much() {
                 return;
             }
@@ -183,6 +182,8 @@ impl Motions<'_, '_, '_> {
             if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
                 return;
             }
+            // What an index shows besides is no more than each item once.
+            self.lists.work.add(PAIR);
             let motion = motion.coming_from(before, list.age_ns, rate);
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };

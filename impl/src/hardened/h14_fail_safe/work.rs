@@ -26,7 +26,7 @@ impl Work {
         self.taken.set(self.taken.get().saturating_add(steps));
     }
 
-    /// A detection was looked for in the other lists, of which so many items were near.
+    /// A detection is looked for in the other lists; at most each of so many items is near.
     #[inline]
     pub(crate) fn add_support(&self, items: u64) {
         self.add(SUPPORT.saturating_add(ITEM.saturating_mul(items)));
