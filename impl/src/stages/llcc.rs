@@ -88,7 +88,7 @@ impl<'c, 'a> CavMotion<'c, 'a> {
         let between = minus(object.seen_from([at.x, at.y]).after(seconds), cav.centre);
         let ([x, y], limit) = (between, theta_obj + SLACK);
         let squared = x * x + y * y;
-        if squared > limit * limit || cav.is_clear_of(object, between, [0.0; 2], SLACK) {
+        if squared > limit * limit || cav.is_apart(object, between, SLACK) {
             return None;
         }
         Some([libm::sqrt(squared), theta_obj])

@@ -71,13 +71,15 @@ impl<N: Number> Times<N> {
 }
 
 impl Times<Real> {
-    /// `first` in plain doubles, which err by less than 1e-15 of T: what is left of the way is rounded once.
+    /// `first` in plain doubles, of all that the way may be. They err by less than 1e-15 of T, and by the root of
+    /// what the way errs by.
     pub(super) fn plainly_first(&self, f: Real) -> f64 {
         /// m; takes less than 1e-29 s, and twice `a_max` times more does not underflow.
         const NOTHING: f64 = 1e-60;
-        let [v, a_max, way] = [self.v, self.a_max, f].map(Real::value);
+        let ([v, a_max], [way, _]) = ([self.v, self.a_max].map(Real::value), ends(f));
         if way > self.s_tau.value() {
-            self.until_stop.value() - self.plainly_stops(self.s_stop - f)
+            let [_, left] = ends(self.s_stop - f);
+            self.until_stop.value() - self.plainly_stops(left)
         } else if way > NOTHING {
             way / (0.5 * (libm::sqrt(v * v + 2.0 * a_max * way) + v))
         } else {
@@ -87,13 +89,19 @@ impl Times<Real> {
 
     /// `last` in plain doubles, as exactly.
     pub(super) fn plainly_last(&self, f: Real) -> f64 {
-        self.v.value() / self.a_b.value() - self.plainly_stops(self.s_b - f)
+        let [left, _] = ends(self.s_b - f);
+        self.v.value() / self.a_b.value() - self.plainly_stops(left)
     }
 
     /// How long braking to a stop takes on so many m, s.
-    fn plainly_stops(&self, way: Real) -> f64 {
-        libm::sqrt(2.0 * larger(way.value(), 0.0) / self.a_b.value())
+    fn plainly_stops(&self, way: f64) -> f64 {
+        libm::sqrt(2.0 * larger(way, 0.0) / self.a_b.value())
     }
+}
+
+/// The least and the greatest that a number may be, each rounded once.
+fn ends(number: Real) -> [f64; 2] {
+    [number.value() - number.off(), number.value() + number.off()]
 }
 
 fn double<N: Number>(number: N) -> N {

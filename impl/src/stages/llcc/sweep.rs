@@ -42,9 +42,9 @@ impl MovingRectangle {
 
     /// The CAV at a trajectory point.
     pub(crate) fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Self {
-        let cav = Self::cav(ego, [point.cos, point.sin]);
-        let [x, y] = cav.centre;
-        Self { centre: [point.x + x, point.y + y], ..cav }
+        let &TrajectoryPoint { x, y, cos, sin, .. } = point;
+        let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
+        Self { centre, ..Self::cav(ego, [cos, sin]) }
     }
 
     /// The CAV, its reference point at the origin.
@@ -81,16 +81,27 @@ impl MovingRectangle {
         [length * along + width * across, length * across + width * along]
     }
 
-    /// Whether the rectangle certainly shares no point with another one, at the time 0.
-    pub(crate) fn certainly_apart(&self, other: &Self) -> bool {
-        self.is_clear_of(other, minus(other.centre, self.centre), [0.0; 2], MARGIN)
+    /// Half the extents of this and another rectangle, together, along the sides of this one.
+    fn halves(&self, other: &Self) -> [f64; 2] {
+        let ([length, width], [cos, sin]) = (self.size, self.direction);
+        let own = 0.5 * (cos * cos + sin * sin);
+        let [along, across] = other.extents(self.direction);
+        [own * length + along, own * width + across]
     }
 
-    /// Whether the rectangle shares no point with what another one sweeps over, whose centre is so far from
-    /// its own, `between`, and moves so far. `error`: more than that errs, m.
-    ///
-    /// Separating axes: the axis of a side of one of the two separates them when there is a gap along it that
-    /// the way does not close; and the one across the way, along which the strip is as wide as what moves.
+    /// Whether the rectangle shares no point with another one, whose centre is so far from its own: the axis of
+    /// a side of one of the two separates them. `error`: more than that errs, m.
+    pub(crate) fn is_apart(&self, other: &Self, between: [f64; 2], error: f64) -> bool {
+        let separates = |one: &Self, other: &Self| {
+            let [along, across] = split(one.direction, between);
+            let [length, width] = one.halves(other);
+            along.abs() > length + error || across.abs() > width + error
+        };
+        separates(self, other) || separates(other, self)
+    }
+
+    /// The same of all that the other one sweeps over while it moves so far: the way closes no gap along such
+    /// an axis, or the axis across the way separates them, along which the strip is as wide as what moves.
     /// Where products with the way underflow, it is too short for that one to make a difference.
     pub(crate) fn is_clear_of(
         &self,
@@ -101,10 +112,9 @@ impl MovingRectangle {
     ) -> bool {
         let separates = |one: &Self, other: &Self| {
             let [gaps, rates] = [between, moved].map(|it| split(one.direction, it));
-            let reaches = one.extents(one.direction).into_iter().zip(other.extents(one.direction));
-            let mut sides = gaps.into_iter().zip(rates).zip(reaches);
-            sides.any(|((gap, rate), (own, reach))| {
-                let (to, half) = (gap + rate, own + reach + error);
+            let mut sides = gaps.into_iter().zip(rates).zip(one.halves(other));
+            sides.any(|((gap, rate), half)| {
+                let (to, half) = (gap + rate, half + error);
                 smaller(gap, to) > half || larger(gap, to) < -half
             })
         };
@@ -114,6 +124,11 @@ impl MovingRectangle {
         let ([x, y], [_, across]) = (moved, split(moved, between));
         let half = self.extents(moved)[1] + other.extents(moved)[1];
         across.abs() > half + error * (x.abs() + y.abs()) + f64::MIN_POSITIVE
+    }
+
+    /// Whether the rectangle certainly shares no point with another one, at the time 0.
+    pub(crate) fn certainly_apart(&self, other: &Self) -> bool {
+        self.is_apart(other, minus(other.centre, self.centre), MARGIN)
     }
 
     /// Whether a point is certainly in the rectangle, at the time 0.

@@ -87,7 +87,7 @@ fn what_is_clear_does_not_touch_and_nothing_else_is() {
             let seconds = point.t_ns as f64 / 1e9;
             let plain = MovingRectangle::cav(&ego, [point.cos, point.sin]);
             let between = minus(object.seen_from([point.x, point.y]).after(seconds), plain.centre);
-            let is_clear = plain.is_clear_of(&object, between, [0.0; 2], SLACK);
+            let is_clear = plain.is_apart(&object, between, SLACK);
             assert!(!(touches && (misses || is_clear)), "{object:?} {point:?}");
             assert!(is_clear || may_touch, "{object:?} {point:?}");
             // The centre of the CAV's rectangle rounds at far places; the object's, too.
