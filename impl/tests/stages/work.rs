@@ -10,6 +10,7 @@ use crate::scene::{Scene, scene, track};
 fn beside(count: i64) -> Scene {
     let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
     scene.tracks = Some((0..count).map(|id| track(id, 4.0, 1.95 + 6e-9)).collect());
+    scene.detections = Some(Vec::new());
     scene
 }
 
