@@ -9,6 +9,7 @@ use mufasa::cycle::steps::{Counts, steps};
 use mufasa::input::cycle::{CrossSection, Cycle, Detection, Ego, Grid, Track};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
+use mufasa::monitor::Monitor;
 use mufasa::report::Stage;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::worst::{
@@ -40,8 +41,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [input, size] = &arguments[..] else {
         INPUTS.iter().for_each(|(name, _)| println!("{name}"));
+        println!("calibrate");
         return Ok(());
     };
+    if input == "calibrate" {
+        let mut taken = 0;
+        measured(&mut || {
+            taken = Monitor::calibrate();
+            true
+        });
+        println!("{taken} passes");
+        return Ok(());
+    }
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
     let size: u32 = size.parse()?;
     let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);

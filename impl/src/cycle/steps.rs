@@ -261,7 +261,7 @@ fn count(items: usize) -> u32 {
 /// A whole number that is not less; the most where it is none.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
 fn whole(number: f64) -> u32 {
-    larger(libm::ceil(number), 0.0) as u32
+    larger(-libm::floor(-number), 0.0) as u32
 }
 
 #[cfg(test)]

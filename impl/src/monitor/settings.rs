@@ -147,7 +147,7 @@ impl Settings {
     /// The same, and how long everything may be.
     pub(super) fn in_time(&self, lent: [usize; 3]) -> Result<Counts, MonitorError> {
         let counts = Counts::lent(self.profile, lent);
-        self.check_steps(&counts, LISTS.split_at(lent.len()).0)?;
+        self.check_steps(&counts, LISTS.get(..lent.len()).unwrap_or(&LISTS))?;
         Ok(counts)
     }
 

@@ -36,7 +36,7 @@ fn the_recommended_lists_are_checked_in_time() {
     assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
 }
 
-/// IMPL-11, IMPL-11: as many steps as fit are taken, one more is refused; the list that is named is too long
+/// IMPL-11, IMPL-12: as many steps as fit are taken, one more is refused; the list that is named is too long
 /// by one.
 #[test]
 fn what_just_fits_is_taken_and_one_more_refused() {

@@ -40,7 +40,8 @@ impl Work {
     /// Why the stage fails, if it was too much.
     pub(crate) fn failure(&self) -> Option<Witness> {
         let real = |steps: u64| Real::integer(i64::try_from(steps).unwrap_or(i64::MAX)).value();
-        let compared = || [self.taken.get(), self.most].map(real);
+        // How much more depends on the order of items in an index.
+        let compared = || [self.most.saturating_add(1), self.most].map(real);
         self.is_too_much().then(|| Witness::of(Rule::WorkLimit, compared()))
     }
 }
