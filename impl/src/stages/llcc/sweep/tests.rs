@@ -140,6 +140,18 @@ fn what_is_clear_of_a_way_touches_nowhere_on_it() {
     assert!(clear > 4_000 && touching > 4_000, "{clear} {touching}");
 }
 
+/// No side of the two separates them, but the axis across the way.
+#[test]
+fn what_passes_a_corner_is_clear() {
+    let (centre, direction, velocity) = ([0.0; 2], [1.0, 0.0], [0.0; 2]);
+    let car = MovingRectangle { centre, direction, velocity, size: [4.0, 2.0] };
+    for (gap, is_clear) in [(8e-9, true), (1e-9, false), (-1e-9, false)] {
+        let away = 3.0 + gap * core::f64::consts::FRAC_1_SQRT_2;
+        let between = [-away - 10.0, away - 10.0];
+        assert_eq!(car.is_clear_of(&car, between, [20.0; 2], SLACK), is_clear, "{gap}");
+    }
+}
+
 #[test]
 fn what_is_certainly_contained_is_inside() {
     let mut random = Random::new(12);
