@@ -33,7 +33,7 @@ impl Work {
     }
 
     #[inline]
-    pub(crate) const fn is_too_much(&self) -> bool {
+    pub(crate) fn is_too_much(&self) -> bool {
         self.taken.get() > self.most
     }
 
