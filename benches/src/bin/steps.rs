@@ -137,28 +137,33 @@ fn main() -> Result<(), Box<dyn Error>> {
         "cells" => Cycle { grid: Some(cells), ..at_rest },
         _ => Cycle { grid: Some(cells), profile: Profile::PAPER, ..at_rest },
     };
-    let most = steps(&Counts::of(&cycle), &cycle.parameters);
+    count(&cycle, *stage);
+    Ok(())
+}
+
+/// Runs the stage, and prints how many steps it may take.
+fn count(cycle: &Cycle<'_>, stage: Option<Stage>) {
+    let most = steps(&Counts::of(cycle), &cycle.parameters);
     let most = match stage {
         None => most.input,
         Some(Stage::Iv) if cycle.profile == Profile::HARDENED => most.stages[3] + most.fail_safe,
         // Unknown cells and the border are looked at, too, where there are no detections.
         Some(Stage::V) => 3 * most.stages[4],
-        Some(stage) => most.stages[*stage as usize],
+        Some(stage) => most.stages[stage as usize],
     };
-    let mut it = Contestant::new(&cycle);
+    let mut it = Contestant::new(cycle);
     let passed = measured(&mut || match stage {
         None => it.validate(),
-        Some(stage) => it.stage(*stage),
+        Some(stage) => it.stage(stage),
     });
     println!("{most} {}", if passed { "passes" } else { "fails" });
-    Ok(())
 }
 
 /// A road that goes back and forth, so that every place between is near all of it; without width but for its
 /// end, which goes along.
 fn folded(count: u32) -> Vec<CrossSection> {
     let cross_section = |i: u32| {
-        let side = if i % 2 == 0 { -1.0 } else { 1.0 };
+        let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
         let (x, y) = (500.0 * side, 5.0 * side + 1e-4 * f64::from(i));
         let half: f64 = if i + 2 < count { 0.0 } else { 0.5 };
         CrossSection { x, y, left: [x, y + half.copysign(x)], right: [x, y - half.copysign(x)] }

@@ -106,7 +106,7 @@ impl Sizes {
     }
 
     /// Tracks, detections and cross sections, of which a monitor says whether they are checked in time.
-    pub(super) fn lists(&self, profile: &Profile) -> [usize; 3] {
+    pub(super) fn lists(&self, profile: Profile) -> [usize; 3] {
         let detections = if profile.looks_back() { self.detections } else { self.columns };
         [self.tracks, detections, self.cross_sections]
     }

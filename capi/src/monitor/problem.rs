@@ -66,17 +66,13 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
         Err(status) => return (status, report::wrong("profile", "no MufasaProfile")),
     };
     let of_requester = Requester::new(made.profile, made.requester, &mut []);
-    let [tracks, detections, cross_sections] = Sizes::of(settings).lists(&made.profile);
-    let lists = made.check_lists(tracks, detections, cross_sections);
-    let error = match (made.check(), of_requester.map(drop), lists) {
-        (Err(error), _, _) => error,
-        (Ok(()), Err(error), _) => MonitorError::Requester(error),
-        (Ok(()), Ok(()), Err(error)) => error,
-        (Ok(()), Ok(()), Ok(())) => {
-            return missing(settings).map_or((MufasaStatus::Ok, report::input(None)), |field| {
-                (MufasaStatus::MemoryTooSmall, report::wrong(field, AT_LEAST_1))
-            });
-        }
+    let [tracks, detections, cross_sections] = Sizes::of(settings).lists(made.profile);
+    let of_requester = of_requester.map(drop).map_err(MonitorError::Requester);
+    let in_time = || made.check_lists(tracks, detections, cross_sections);
+    let Err(error) = made.check().and(of_requester).and_then(|()| in_time()) else {
+        return missing(settings).map_or((MufasaStatus::Ok, report::input(None)), |field| {
+            (MufasaStatus::MemoryTooSmall, report::wrong(field, AT_LEAST_1))
+        });
     };
     let told = match error {
         MonitorError::Stages(problem) => report::input(Some(problem)),
