@@ -2,6 +2,7 @@
 
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Detection, Track, TrackList};
 use crate::input::scratch::{Column, Row};
 use crate::numbers::range::larger;
@@ -41,6 +42,10 @@ pub(crate) struct Lists<'m, 'c, 'a> {
     pasts: [Option<Past<'c>>; 4],
     /// By squares, once they are needed.
     squares: [Option<Squares<'c>>; 4],
+    /// How many items they all have.
+    items: u64,
+    /// What was done with them, and with what they show.
+    pub(crate) work: Work,
 }
 
 impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
@@ -60,7 +65,16 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 });
             }
         }
-        Self { cycle, history, pasts, squares: [None; 4] }
+        let items = history.usable.iter().flatten().map(|list| list.items.len()).sum::<usize>();
+        let items = u64::try_from(items).unwrap_or(u64::MAX);
+        Self {
+            cycle,
+            history,
+            pasts,
+            items,
+            squares: [None; 4],
+            work: Work::new(&cycle.parameters),
+        }
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -118,6 +132,11 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     ) -> bool {
         let reach = self.stands_within();
         let [before_x, before_y] = before;
+        if self.work.is_too_much() {
+            // The stage fails anyhow.
+            return true;
+        }
+        self.work.add_support(self.items);
         let mut alone = true;
         for (list, squares) in self.squares.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
