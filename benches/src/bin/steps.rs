@@ -147,8 +147,8 @@ fn count(cycle: &Cycle<'_>, stage: Option<Stage>) {
     let most = match stage {
         None => most.input,
         Some(Stage::Iv) if cycle.profile == Profile::HARDENED => most.stages[3] + most.fail_safe,
-        // Unknown cells and the border are looked at, too, where there are no detections.
-        Some(Stage::V) => 3 * most.stages[4],
+        // There are no detections.
+        Some(Stage::V) => most.stages[4] + most.without_detections,
         Some(stage) => most.stages[stage as usize],
     };
     let mut it = Contestant::new(cycle);

@@ -55,7 +55,7 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         period_ns,
         sessions_before: 0,
         check_time_ns: 10_000_000,
-        step_ps: 650,
+        step_ps: 750,
         most_stations: 8,
         most_tracks: 128,
         most_points: 128,

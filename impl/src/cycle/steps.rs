@@ -8,15 +8,15 @@ use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
 use crate::numbers::range::larger;
 
-/// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one that is looked for
-/// in other lists, an item there, a segment of the route.
+/// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one
+/// that is looked for in other lists (and 1 for each item of a list that is looked into), a segment of the
+/// route.
 pub(crate) const MOTION: u64 = 160;
 pub(crate) const PIECE: u64 = 160;
 pub(crate) const PLACE: u64 = 160;
 pub(crate) const BOX: u64 = 40;
 pub(crate) const PAIR: u64 = 16;
 pub(crate) const SUPPORT: u64 = 64;
-pub(crate) const ITEM: u64 = 1;
 pub(crate) const SEGMENT: u64 = 32;
 
 /// Sizes of the input of a cycle. Source: `spec/4-arithmetic.md#steps`.
@@ -160,6 +160,8 @@ pub struct Steps {
     pub input: u64,
     /// The stages, each without H-14.
     pub stages: [u64; 5],
+    /// What stage v takes more without detections: unknown cells and the border of the grid are looked at, too.
+    pub without_detections: u64,
     /// H-14.
     pub fail_safe: u64,
 }
@@ -167,11 +169,10 @@ pub struct Steps {
 impl Steps {
     /// All together. Source: `spec/4-arithmetic.md#steps`.
     ///
-    /// Unknown cells and the border of the grid are looked at where there are no detections; these go to
-    /// stages i and iv.
+    /// Detections go to stages i and iv.
     pub fn total(&self) -> u64 {
-        let &Self { input, stages: [i, ii, iii, iv, v], fail_safe } = self;
-        let either = i.saturating_add(iv).max(v.saturating_mul(2));
+        let &Self { input, stages: [i, ii, iii, iv, v], without_detections, fail_safe } = self;
+        let either = i.saturating_add(iv).max(without_detections);
         sum([input, ii, iii, v, either, fail_safe])
     }
 }
@@ -193,6 +194,12 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
     let rows = disk_rows.saturating_add(cav_rows);
     let words = rows.wrapping_div(57).saturating_add(3);
     let of_disk = sum([340, product([20, disk_rows])]);
+    let at_pose = sum([product([8, rows, words]), product([disks, of_disk])]);
+    let v = if disk_rows == 0 {
+        0
+    } else {
+        sum([product([poses, at_pose]), product([200, way_rows, words])])
+    };
     let has_objects = u64::from(t.max(d) > 0);
     Steps {
         input: sum([product([64, t]), product([t, t]), product([32, p]), product([128, d])]),
@@ -207,13 +214,9 @@ pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
             sum([product([64, poses]), product([32, p, s])]),
             sum([product([64, p]), product([20, p, t])]),
             sum([product([64, p]), product([20, p, d])]),
-            if disk_rows == 0 {
-                0
-            } else {
-                let at_pose = sum([product([8, rows, words]), product([disks, of_disk])]);
-                sum([product([poses, at_pose]), product([200, way_rows, words])])
-            },
+            v,
         ],
+        without_detections: if v == 0 { 0 } else { sum([v, product([poses, disks, 340])]) },
         fail_safe: if k == 0 {
             0
         } else {

@@ -62,7 +62,7 @@ impl Settings {
             supervise_local: false,
             stall: None,
             check_time: Duration::from_millis(10),
-            step_ps: 650,
+            step_ps: 750,
         }
     }
 

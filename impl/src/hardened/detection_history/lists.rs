@@ -1,5 +1,6 @@
 //! The usable lists, as H-14 looks into them (SEEN-01, SEEN-02).
 
+use crate::cycle::steps::SUPPORT;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::hardened::h14_fail_safe::work::Work;
@@ -42,8 +43,6 @@ pub(crate) struct Lists<'m, 'c, 'a> {
     pasts: [Option<Past<'c>>; 4],
     /// By squares, once they are needed.
     squares: [Option<Squares<'c>>; 4],
-    /// How many items they all have.
-    items: u64,
     /// What was done with them, and with what they show.
     pub(crate) work: Work,
 }
@@ -65,16 +64,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 });
             }
         }
-        let items = history.usable.iter().flatten().map(|list| list.items.len()).sum::<usize>();
-        let items = u64::try_from(items).unwrap_or(u64::MAX);
-        Self {
-            cycle,
-            history,
-            pasts,
-            items,
-            squares: [None; 4],
-            work: Work::new(&cycle.parameters),
-        }
+        Self { cycle, history, pasts, squares: [None; 4], work: Work::new(&cycle.parameters) }
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -136,7 +126,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             // The stage fails anyhow.
             return true;
         }
-        self.work.add_support(self.items);
+        self.work.add(SUPPORT);
         let mut alone = true;
         for (list, squares) in self.squares.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
@@ -144,6 +134,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 continue;
             }
             alone = false;
+            self.work.add(u64::try_from(other.items.len()).unwrap_or(u64::MAX));
             let mut supported = false;
             let share = other.age / own.age;
             let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);

@@ -3,7 +3,6 @@
 
 use core::cell::Cell;
 
-use crate::cycle::steps::{ITEM, SUPPORT};
 use crate::input::parameters::Parameters;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
@@ -24,12 +23,6 @@ impl Work {
     #[inline]
     pub(crate) fn add(&self, steps: u64) {
         self.taken.set(self.taken.get().saturating_add(steps));
-    }
-
-    /// A detection is looked for in the other lists; at most each of so many items is near.
-    #[inline]
-    pub(crate) fn add_support(&self, items: u64) {
-        self.add(SUPPORT.saturating_add(ITEM.saturating_mul(items)));
     }
 
     #[inline]

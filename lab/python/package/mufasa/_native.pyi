@@ -231,7 +231,7 @@ class Monitor:
         sessions_before: int = 0,
         most_stations: int = 64,
         check_time: timedelta | None = None,
-        step_ps: int = 650,
+        step_ps: int = 750,
     ) -> Monitor: ...
     def set_route(self, cross_sections: Rows, *, closed: bool = False) -> None:
         """From now on the CAV follows this route (``CrossSection``), of which a copy is kept."""
