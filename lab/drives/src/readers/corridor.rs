@@ -74,9 +74,12 @@ impl Section {
         dot(sub(self.reference(), other.reference()), along) >= far
     }
 
-    /// Whether two cross sections are too near each other to be two.
-    pub(crate) fn is_at(&self, other: &Self) -> bool {
-        distance(self.reference(), other.reference()) <= NEAREST
+    /// Whether this one may come next after another: not too near, and ahead of it where the reference path passes
+    /// from lane to lane, beside which lines across turn it back.
+    pub(crate) fn follows(&self, last: &Self) -> bool {
+        let passes = self.reference != 0.0 || last.reference != 0.0;
+        let is_near = distance(self.reference(), last.reference()) <= NEAREST;
+        !is_near && (!passes || self.is_ahead_of(last, NEAREST))
     }
 }
 
@@ -109,9 +112,8 @@ pub(crate) fn on_surface(
             continue;
         }
         let room = sections.len() < usize::from(SECTIONS_MAX);
-        let new = between(&sections[i], &sections[i + 1]).filter(|new| {
-            room && ![&sections[i], &sections[i + 1]].into_iter().any(|near| near.is_at(new))
-        });
+        let new = between(&sections[i], &sections[i + 1])
+            .filter(|new| room && new.follows(&sections[i]) && sections[i + 1].follows(new));
         if let Some(new) = new {
             sections.insert(i + 1, new);
             continue;

@@ -203,7 +203,7 @@ impl Course {
                 sections.push(self.section(k, s));
             }
         }
-        sections.dedup_by(|next, last| next.is_at(last));
+        sections.dedup_by(|next, last| !next.follows(last));
         sections
     }
 

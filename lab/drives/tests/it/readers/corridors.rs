@@ -199,3 +199,43 @@ fn a_recorded_drive_moved_into_the_gore_is_not_on_the_map() {
     let [off, all] = off_the_map(&scenario, &moved);
     assert!(off == all && all == 24, "{off} of {all} cycles fail stage ii");
 }
+#[test]
+fn zz_measure() {
+    for folder in
+        ["/work/shared/data/commonroad", "/work/shared/data/commonroad-defects", "/tmp/t/scenarios"]
+    {
+        let mut files: Vec<_> =
+            std::fs::read_dir(folder).unwrap().map(|it| it.unwrap().path()).collect();
+        files.retain(|it| it.extension().is_some_and(|it| it == "xml"));
+        files.sort();
+        let mut all = mufasa_drives::streams(&files, &Options::default());
+        for file in &files {
+            let text = std::fs::read_to_string(file).unwrap();
+            let ids = text
+                .split("<dynamicObstacle id=\"")
+                .skip(1)
+                .chain(text.split("<obstacle id=\"").skip(1));
+            for id in ids.take(60) {
+                let ego = id.split('"').next().unwrap().parse().ok();
+                let options = Options { ego, tail: Tail::Keep, ..Options::default() };
+                all.extend(mufasa_drives::streams(std::slice::from_ref(file), &options));
+            }
+        }
+        for drive in all {
+            let Ok(drive) = drive else { continue };
+            let changes = drive.notes.iter().any(|it| it.contains("lane change"));
+            let ego = drive.notes.iter().find(|it| it.contains("CAV")).cloned().unwrap_or_default();
+            let Ok(cycle) = drive.cycle(0) else { continue };
+            let name = drive.name.clone();
+            let drive = Drive {
+                name,
+                source: String::new(),
+                lead_range_m: 0.0,
+                cycles: vec![cycle],
+                notes: drive.notes,
+            };
+            let (turn, side) = sharpest_turn(&drive);
+            println!("TURN {} {} {turn:.1} {side:.3} {ego}", drive.name, changes);
+        }
+    }
+}
