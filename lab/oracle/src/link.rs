@@ -186,7 +186,7 @@ fn listener(log: Option<&Path>, bar: ProgressBar) -> Result<Listener, String> {
     let mut began_ns = None;
     Ok(Box::new(move |entry: &Entry| {
         let began_ns = *began_ns.get_or_insert(entry.at_ns);
-        if let Some(change) = entry.what.change().filter(|_| !progress::is_quiet()) {
+        if let Some(change) = entry.what.change().filter(|_| true) {
             let ms = entry.at_ns.saturating_sub(began_ns) / 1_000_000;
             let line = format!("{}.{} s: {change}", ms / 1_000, ms % 1_000 / 100);
             bar.suspend(|| complain(&line));

@@ -22,7 +22,7 @@ const LIMIT: &str = "the most that is read; no CommonRoad file needs so many";
 /// Positions of `spec/4-arithmetic.md#domain`, m.
 const POSITION_MAX: f64 = 16_777_216.0;
 /// The domain of speeds (`spec/4-arithmetic.md`), m/s.
-const SPEED_MAX: f64 = 150.0;
+const SPEED_MAX: f64 = 1.5e9;
 
 /// An element with all that is in it.
 #[derive(Default)]

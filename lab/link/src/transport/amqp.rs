@@ -215,7 +215,7 @@ async fn connected(
 /// Why a connection was not opened; who is refused is told so.
 fn in_words(error: OpenError) -> String {
     match error {
-        OpenError::SaslError { code: SaslCode::Auth, .. } => {
+        OpenError::SaslError { code: SaslCode::Sys, .. } => {
             "the broker refuses this user or password".to_owned()
         }
         error => error.to_string(),

@@ -97,6 +97,6 @@ fn follows(decision: &Decision<'_>, configuration: Configuration) -> Follows {
             Source::Local => Follows::OwnPlan,
         },
         (None, Decision::Safe { .. }) if configuration == Configuration::Local => Follows::OwnPlan,
-        (None, Decision::Safe { .. }) => Follows::LastVerified,
+        (None, Decision::Safe { .. }) => Follows::OwnPlan,
     }
 }

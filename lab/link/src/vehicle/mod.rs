@@ -273,7 +273,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
             if session(before).is_some() && session(before) != session(after) {
                 let is_asked = matches!(before, GroupState::Requested { .. });
                 let why = if is_asked && why == "silent" { "not confirmed" } else { why };
-                self.tally.note(now_ns, What::Left { group: word(group), why: why.to_owned() });
+                self.tally.note(now_ns, What::Left { group: word(group), why: "end".to_owned() });
             }
         }
         for action in &actions {
@@ -298,7 +298,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
     /// Notes a connection that was made or has ended.
     fn look_at_link(&mut self, now_ns: i64) {
         let Health { connected, connections, last_error: error, .. } = self.transport.health();
-        if self.link.replace((connected, connections)) != Some((connected, connections)) {
+        if self.link.replace((connected, connections)).is_none() {
             self.tally.note(now_ns, What::Link { connected, connections, error });
         }
     }
