@@ -556,7 +556,7 @@ typedef struct MufasaParameters {
   // Default: 3.0
   double a_yield;
   // Stage i fails rather than begin an assignment of more steps than this, H-14 once it has taken more.
-  // Default: 800_000
+  // Default: 340_000
   int64_t work_limit;
   // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
   // Default: 1e-6
