@@ -5,7 +5,7 @@
 use std::error::Error;
 use std::hint::black_box;
 
-use mufasa::cycle::steps::{Counts, steps};
+use mufasa::cycle::steps::{Counts, most_steps};
 use mufasa::input::cycle::{CrossSection, Cycle, Detection, Ego, Grid, Track};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
@@ -143,7 +143,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Runs the stage, and prints how many steps it may take.
 fn count(cycle: &Cycle<'_>, stage: Option<Stage>) {
-    let most = steps(&Counts::of(cycle), &cycle.parameters);
+    let most = most_steps(&Counts::of(cycle), &cycle.parameters);
     let most = match stage {
         None => most.input,
         Some(Stage::Iv) if cycle.profile == Profile::HARDENED => most.stages[3] + most.fail_safe,

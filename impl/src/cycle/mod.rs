@@ -34,7 +34,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 ///
-/// Usually each stage is linear in its lists; at most it takes the steps that [`steps`](steps::steps) counts by their
+/// Usually each stage is linear in its lists; at most it takes the steps that [`most_steps`](steps::most_steps) counts by their
 /// sizes, each of at most 10 instructions.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     check_with(cycle, &Indexes::default(), scratch)

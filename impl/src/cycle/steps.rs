@@ -131,7 +131,7 @@ impl Counts {
         let with = |list: &List, length: u32| {
             let mut counts = *self;
             *(list.1)(&mut counts) = length;
-            steps(&counts, parameters).total()
+            most_steps(&counts, parameters).total()
         };
         let longest = among.iter().min_by_key(|list| with(list, 0))?;
         let given = *(longest.1)(&mut { *self });
@@ -178,7 +178,7 @@ impl Steps {
 }
 
 /// The most steps that a cycle of these sizes takes. Source: `spec/4-arithmetic.md#steps`.
-pub fn steps(counts: &Counts, parameters: &Parameters) -> Steps {
+pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
     let &Counts { tracks, points, detections, lists, cross_sections, places, .. } = counts;
     let [t, p, d] = [tracks, points, detections].map(u64::from);
     let [s, k, lists] = [cross_sections, places, lists].map(u64::from);
@@ -269,7 +269,7 @@ fn whole(number: f64) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Counts, LISTS, steps};
+    use super::{Counts, LISTS, most_steps};
     use crate::input::parameters::Parameters;
     use crate::random::Random;
 
@@ -292,7 +292,7 @@ mod tests {
             };
             let work_limit = i64::from(below(u32::MAX)) >> below(32);
             let parameters = Parameters { work_limit, ..Parameters::default() };
-            let total = |counts| steps(&counts, &parameters).total();
+            let total = |counts| most_steps(&counts, &parameters).total();
             let mut longer = [counts; 8];
             LISTS.iter().zip(&mut longer).for_each(|(list, it)| *(list.1)(it) += 1);
             longer[6].cav_rows += 1;

@@ -5,7 +5,7 @@ use core::time::Duration;
 
 use super::stall::Stall;
 use super::time::Time;
-use crate::cycle::steps::{Counts, LISTS, List, steps};
+use crate::cycle::steps::{Counts, LISTS, List, most_steps};
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -123,7 +123,7 @@ impl Settings {
     }
 
     /// The most steps that a run of the stages may take: a cycle may run them twice where it supervises.
-    pub(super) fn most_steps(&self) -> u64 {
+    pub(super) fn steps_in_time(&self) -> u64 {
         let ps = self.check_time.as_nanos().saturating_mul(1000);
         let steps = ps.checked_div(u128::from(self.step_ps)).unwrap_or(u128::MAX);
         let steps = if self.supervise_local { steps >> 1 } else { steps };
@@ -153,14 +153,14 @@ impl Settings {
 
     /// Whether so much is checked in time; if not, which list of these is too long.
     pub(super) fn check_steps(&self, counts: &Counts, among: &[List]) -> Result<(), MonitorError> {
-        let (most_steps, stages) = (self.most_steps(), &self.stages);
-        let steps = steps(counts, stages).total();
-        if steps <= most_steps {
+        let (in_time, stages) = (self.steps_in_time(), &self.stages);
+        let steps = most_steps(counts, stages).total();
+        if steps <= in_time {
             return Ok(());
         }
-        let too_long = counts.too_long(stages, most_steps, among);
+        let too_long = counts.too_long(stages, in_time, among);
         let (list, given, most) = too_long.unwrap_or(("check_time", 0, 0));
-        Err(MonitorError::TooSlow { list, given, most, steps, most_steps })
+        Err(MonitorError::TooSlow { list, given, most, steps, most_steps: in_time })
     }
 
     /// The nominal period of the remote's results, saturated.

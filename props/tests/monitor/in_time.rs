@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mufasa::cycle::steps::{Counts, steps};
+use mufasa::cycle::steps::{Counts, most_steps};
 use mufasa::input::cycle::{Cycle, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Decision, GridMap, Inputs, Monitor, MonitorError, Settings};
@@ -105,7 +105,7 @@ fn a_cycle_that_may_be_late_is_refused() {
         grid: Some(grid),
         detection_history: &[],
     };
-    let total = steps(&Counts::of(&cycle), &cycle.parameters).total();
+    let total = most_steps(&Counts::of(&cycle), &cycle.parameters).total();
     for (steps, is_late) in [(total, false), (total - 1, true)] {
         let mut lent = memory([8, 8, road.len()]);
         let mut monitor = Monitor::new(within(steps), lent.memory()).expect("in time");
