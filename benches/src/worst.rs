@@ -97,6 +97,7 @@ pub fn base<'a>(cross_sections: &'a [CrossSection], grid: &'a [u8]) -> Cycle<'a>
             theta_tr: 512.0,
             theta_obj: 1e3,
             theta_track_max: 1e3,
+            work_limit: 10_000_000_000,
             ..Parameters::default()
         },
         now_ns: NOW_NS,

@@ -97,6 +97,8 @@ enum MufasaStatus
   // tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
   // cycle, the first that can fail.
   MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 16,
+  // A cycle with lists as long as they may become could take longer than check_time.
+  MUFASA_STATUS_TOO_SLOW = 17,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -542,8 +544,8 @@ typedef struct MufasaParameters {
   // H-14: how hard they brake then, m/s^2.
   // Default: 3.0
   double a_yield;
-  // Stage i fails rather than begin an assignment of more work than this.
-  // Default: 10_000_000_000
+  // Stage i fails rather than begin an assignment of more steps than this, H-14 once it has taken more.
+  // Default: 340_000
   int64_t work_limit;
   // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
   // Default: 1e-6
@@ -904,6 +906,10 @@ typedef struct MufasaMonitorSettings {
   // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
   int64_t sessions_before;
+  // How long a cycle may take, ns: what may take longer is refused; INT64_MAX for any time.
+  int64_t check_time_ns;
+  // What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
+  uint64_t step_ps;
   // Stations that ever offer something, at least 1.
   size_t most_stations;
   // Tracks of a list, at least 1.
@@ -1138,6 +1144,9 @@ MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
 // The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
 // 256 detections and 1024 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
+
+// Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
+uint64_t mufasa_monitor_calibrate(void);
 
 // Bytes of memory for a monitor with these settings; SIZE_MAX when they cannot be read.
 //

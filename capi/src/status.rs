@@ -45,4 +45,6 @@ pub enum MufasaStatus {
     /// tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
     /// cycle, the first that can fail.
     TauNotAbovePeriod = 16,
+    /// A cycle with lists as long as they may become could take longer than check_time.
+    TooSlow = 17,
 }

@@ -276,6 +276,20 @@ static void a_status_of_the_settings_has_a_field(void) {
   it.profile = MUFASA_PROFILE_HARDENED;
   is_about(&it, MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD, "parameters.tau");
   it = settings();
+  it.check_time_ns = -1;
+  is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "check_time_ns");
+  /* The default takes the default's lists, and not four times as many cross sections. */
+  it = mufasa_monitor_settings_default(50 * MS);
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it.most_cross_sections = 4096;
+  is_about(&it, MUFASA_STATUS_TOO_SLOW, "most_cross_sections");
+  it.check_time_ns = INT64_MAX;
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it = settings();
+  it.check_time_ns = 1000;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_TOO_SLOW && monitor == NULL);
+  EXPECT(mufasa_monitor_calibrate() > 10000);
+  it = settings();
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);

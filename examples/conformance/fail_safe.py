@@ -202,12 +202,13 @@ class FailSafe:
     def meets_nobody(self, seen, tracks):
         """Whether no object that is seen, or a current track, may meet the CAV before it stands,
         nor later when it cannot stop for it."""
-        if self.work(seen, tracks) > self.cycle["parameters"]["work_limit"]:
+        motions = list(self.motions(seen, tracks))
+        if self.work(seen, len(motions)) > self.cycle["parameters"]["work_limit"]:
             return False
         cav = {**self.ego, "width": self.ego["width"] + 2 * self.a}
         beside = Beside(self.cycle, self.places, self.a, self.stop.T)
         windows = list(self.windows())
-        for motion in self.motions(seen, tracks):
+        for motion in motions:
             latest = self.stop.T if motion.comes_across else max(self.stop.T, motion.yielded)
             if (any(motion.meets(cav, pose, begins, latest if ends is None else ends)
                     for pose, begins, ends in windows)
@@ -215,8 +216,8 @@ class FailSafe:
                 return False
         return True
 
-    def work(self, seen, tracks):
+    def work(self, seen, motions):
         items = [len(one["items"]) for one in seen.lists]
         places = len(self.places) + len(self.cycle["trajectory"]["points"])
-        return (places * len(tracks)
-                + len(seen.detections) * max([1, *items]) * (sum(items) + places))
+        return (len(seen.detections) * max([1, *items]) * (512 + 8 * sum(items))
+                + motions * (1280 + 768 * places + 32 * len(self.cycle["route"]["stations"])))

@@ -33,7 +33,7 @@ struct Parameters {
   double t_yield = 1.5, a_yield = 3.0;
   double delta = 1e-6;
   std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 4, step_max_ns = 200000000,
-               work_limit = 10000000000;
+               work_limit = 340000;
 };
 struct Cycle {
   Parameters parameters;

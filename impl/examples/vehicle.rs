@@ -8,7 +8,7 @@ use std::time::Duration;
 use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, TrajectoryPoint};
 use mufasa::input::detection_index::Slot;
 use mufasa::input::route_index::Block;
-use mufasa::input::scratch::{Column, Row, Sizes};
+use mufasa::input::scratch::{Column, Row};
 use mufasa::monitor::{
     Accepted, Arrival, Decision, Gap, Inputs, Memory, Message, Monitor, Settings, Time, Verified,
 };
@@ -32,8 +32,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let route = road();
     let memory = Memory {
         stations: &mut [StationRecord::FREE; 4],
-        rows: &mut vec![Row::default(); Sizes::MAX.rows],
-        columns: &mut vec![Column::default(); Sizes::MAX.columns],
+        rows: &mut vec![Row::default(); 64],
+        columns: &mut vec![Column::default(); 68],
         detections: &mut vec![Detection::default(); Memory::detections_for(MOST_DETECTIONS)],
         slots: &mut vec![Slot::default(); Memory::slots_for(MOST_DETECTIONS)],
         cross_sections: &mut vec![CrossSection::default(); route.len()],

@@ -19,7 +19,7 @@
 //! use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, TrajectoryPoint};
 //! use mufasa::input::detection_index::Slot;
 //! use mufasa::input::route_index::Block;
-//! use mufasa::input::scratch::{Column, Row, Sizes};
+//! use mufasa::input::scratch::{Column, Row};
 //! use mufasa::monitor::{Arrival, Decision, Inputs, Memory, Message, Monitor, Settings, Time};
 //! use mufasa::offloading::requester::{Action, Group, Groups, StationRecord};
 //!
@@ -27,8 +27,8 @@
 //! let settings = Settings::new(Duration::from_millis(50));
 //! let memory = Memory {
 //!     stations: &mut [StationRecord::FREE; 4],
-//!     rows: &mut vec![Row::default(); Sizes::MAX.rows],
-//!     columns: &mut vec![Column::default(); Sizes::MAX.columns],
+//!     rows: &mut vec![Row::default(); 64],
+//!     columns: &mut vec![Column::default(); 68],
 //!     detections: &mut vec![Detection::default(); Memory::detections_for(64)],
 //!     slots: &mut vec![Slot::default(); Memory::slots_for(64)],
 //!     cross_sections: &mut vec![CrossSection::default(); 1000],

@@ -65,11 +65,12 @@ pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
     }
 }
 
-/// The comparisons of H-14: its work, and each place and each moving object with each cross section (who
+/// The comparisons of H-14, and each place and each moving object with each cross section (who
 /// follows).
 pub fn of_fail_safe(scene: &Scene, trajectory: &[Point]) -> i128 {
     let beside_route = path::count(scene, trajectory) + h14_fail_safe::most_moving(scene);
-    h14_fail_safe::work(scene, trajectory) + beside_route * scene.route.cross_sections.len() as i128
+    h14_fail_safe::comparisons(scene, trajectory)
+        + beside_route * scene.route.cross_sections.len() as i128
 }
 
 /// The cells near the n disks of a place.

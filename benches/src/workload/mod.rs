@@ -267,7 +267,8 @@ impl Workload {
         let [x, y] = self.numbers.origin;
         Cycle {
             profile,
-            parameters: Parameters::default(),
+            // W3 takes more than the default.
+            parameters: Parameters { work_limit: 10_000_000_000, ..Parameters::default() },
             now_ns: NOW_NS,
             configuration,
             ego: self.ego,

@@ -5,6 +5,7 @@ use core::mem::{align_of, size_of};
 
 use mufasa::input::cycle::{CrossSection, Detection, Track, TrajectoryPoint};
 use mufasa::input::detection_index::Slot;
+use mufasa::input::profile::Profile;
 use mufasa::input::route_index::Block;
 use mufasa::input::scratch::{Column, Row};
 use mufasa::monitor::{Memory, Monitor};
@@ -67,7 +68,7 @@ pub const MUFASA_MONITOR_ALIGN: usize = 8;
 const _: () = assert!(align_of::<MufasaMonitor>() <= MUFASA_MONITOR_ALIGN);
 
 /// How many elements of each kind a monitor has.
-struct Sizes {
+pub(super) struct Sizes {
     stations: usize,
     tracks: usize,
     points: usize,
@@ -80,7 +81,7 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn of(settings: &MufasaMonitorSettings) -> Self {
+    pub(super) fn of(settings: &MufasaMonitorSettings) -> Self {
         let &MufasaMonitorSettings {
             most_stations: stations,
             most_tracks: tracks,
@@ -101,6 +102,12 @@ impl Sizes {
             cross_sections,
             blocks: Block::needed(cross_sections),
         }
+    }
+
+    /// Tracks, detections and cross sections, of which a monitor says whether they are checked in time.
+    pub(super) fn lists(&self, profile: Profile) -> [usize; 3] {
+        let detections = if profile.looks_back() { self.detections } else { self.columns };
+        [self.tracks, detections, self.cross_sections]
     }
 
     /// For the lists of one call.

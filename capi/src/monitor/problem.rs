@@ -3,7 +3,7 @@
 use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Requester, RequesterError};
 
-use super::place::MufasaMonitor;
+use super::place::{MufasaMonitor, Sizes};
 use super::settings::{MufasaMonitorSettings, refused};
 use crate::cycle::MufasaProfile;
 use crate::memory::{put, required};
@@ -58,17 +58,21 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
         Err(MufasaStatus::InvalidPeriod) => {
             return (MufasaStatus::InvalidPeriod, report::wrong("period_ns", POSITIVE));
         }
+        Err(MufasaStatus::InvalidParameter) => {
+            let told =
+                report::wrong("check_time_ns", "below 0; give ns, or INT64_MAX for any time");
+            return (MufasaStatus::InvalidParameter, told);
+        }
         Err(status) => return (status, report::wrong("profile", "no MufasaProfile")),
     };
     let of_requester = Requester::new(made.profile, made.requester, &mut []);
-    let error = match (made.check(), of_requester.map(drop)) {
-        (Err(error), _) => error,
-        (Ok(()), Err(error)) => MonitorError::Requester(error),
-        (Ok(()), Ok(())) => {
-            return missing(settings).map_or((MufasaStatus::Ok, report::input(None)), |field| {
-                (MufasaStatus::MemoryTooSmall, report::wrong(field, AT_LEAST_1))
-            });
-        }
+    let [tracks, detections, cross_sections] = Sizes::of(settings).lists(made.profile);
+    let of_requester = of_requester.map(drop).map_err(MonitorError::Requester);
+    let in_time = || made.check_lists(tracks, detections, cross_sections);
+    let Err(error) = made.check().and(of_requester).and_then(|()| in_time()) else {
+        return missing(settings).map_or((MufasaStatus::Ok, report::input(None)), |field| {
+            (MufasaStatus::MemoryTooSmall, report::wrong(field, AT_LEAST_1))
+        });
     };
     let told = match error {
         MonitorError::Stages(problem) => report::input(Some(problem)),
@@ -104,6 +108,15 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
         ),
         MonitorError::Stall { .. } => report::wrong("stall", ""),
         MonitorError::Memory { field, .. } => report::wrong(field, AT_LEAST_1),
+        MonitorError::TooSlow { list, .. } => {
+            let field = match list {
+                "tracks" => "most_tracks",
+                "detections" => "most_detections",
+                "cross_sections" => "most_cross_sections",
+                list => list,
+            };
+            report::wrong(field, "too many for check_time_ns; give fewer, or more time")
+        }
     };
     (refused(error), told)
 }

@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use mufasa::monitor::{MonitorError, Settings};
+use mufasa::monitor::{Monitor, MonitorError, Settings};
 
 use crate::convert;
 use crate::cycle::MufasaProfile;
@@ -28,6 +28,10 @@ pub struct MufasaMonitorSettings {
     /// At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
     /// numbered on from here, so that no message of an earlier life fits.
     pub sessions_before: i64,
+    /// How long a cycle may take, ns: what may take longer is refused; INT64_MAX for any time.
+    pub check_time_ns: i64,
+    /// What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
+    pub step_ps: u64,
     /// Stations that ever offer something, at least 1.
     pub most_stations: usize,
     /// Tracks of a list, at least 1.
@@ -50,6 +54,8 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         requester: mufasa::offloading::requester::Parameters::default().into(),
         period_ns,
         sessions_before: 0,
+        check_time_ns: 10_000_000,
+        step_ps: 750,
         most_stations: 8,
         most_tracks: 128,
         most_points: 128,
@@ -58,17 +64,31 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
     }
 }
 
+/// Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
+    Monitor::calibrate()
+}
+
 impl MufasaMonitorSettings {
     /// Those of `mufasa`.
     pub(super) fn of_monitor(&self) -> Result<Settings, MufasaStatus> {
         let period_ns = u64::try_from(self.period_ns).map_err(|_| MufasaStatus::InvalidPeriod)?;
         let period = Duration::from_nanos(period_ns);
+        let check_time_ns =
+            u64::try_from(self.check_time_ns).map_err(|_| MufasaStatus::InvalidParameter)?;
+        let check_time = match self.check_time_ns {
+            i64::MAX => Duration::MAX,
+            _ => Duration::from_nanos(check_time_ns),
+        };
         Ok(Settings {
             profile: convert::profile(self.profile)?,
             stages: self.stages.into(),
             requester: self.requester.into(),
             period,
             sessions_before: self.sessions_before,
+            check_time,
+            step_ps: self.step_ps,
             ..Settings::new(period)
         })
     }
@@ -87,5 +107,6 @@ pub(super) fn refused(error: MonitorError) -> MufasaStatus {
         MonitorError::DtMaxNotAbovePeriod { .. } => MufasaStatus::DtMaxNotAbovePeriod,
         MonitorError::TauNotAbovePeriod { .. } => MufasaStatus::TauNotAbovePeriod,
         MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
+        MonitorError::TooSlow { .. } => MufasaStatus::TooSlow,
     }
 }

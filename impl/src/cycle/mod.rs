@@ -3,6 +3,7 @@
 //! to it, or is asked behind it.
 
 pub mod order;
+pub mod steps;
 
 use crate::cycle::order::{Turn, decide, schedule};
 use crate::hardened::detection_history::{DetectionHistory, Seen};
@@ -33,34 +34,8 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 ///
-/// Work, for T tracks, D detections, P points, S cross sections, n disks and G cells of the grid. Usually
-/// each stage is linear in its lists. At most:
-///
-/// * input: T + D + P + S, and T^2/2 comparisons of ids that do not increase and share their low
-///   twelve bits;
-/// * i: a few times T D distances, which `work_limit` does not limit, and an assignment of
-///   min(T, c)^2 max(T, c) steps, c = D + `miss_budget`, never more than `work_limit`;
-/// * ii: P S segments and triangles, with an index only those beside each point, which on a folded
-///   route may be four times as many;
-/// * iii and iv: T P and D P pairs of rectangles, each about 100 operations of plain doubles;
-/// * v: 2 P + log2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
-///   looks at the square around it (in the paper profile around up to four cells), which is
-///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells. In the hardened profile
-///   the K places of H-14 count as points, and each occupied cell that a disk reaches is compared with
-///   the CAV's rectangle, too, where detections are current in `AllRemote` or `PlanRemote`, and each in a
-///   band with up to D detections, one for most;
-/// * what the CAV saw itself (hardened, with U items in all usable lists of the history): a few times
-///   T U distances;
-/// * H-14, with K places, which are `s_stop` / 1/4 m and some for turns: in ii K distances, in iv
-///   T (K + P) pairs of rectangles, and D times the items of the longest list times (U + K + P), each
-///   about a hundred operations of plain doubles; for each object and pair of items about a hundred
-///   with error bounds.
-///
-/// Stage i and H-14 have a limit. The default of `work_limit`, 10^10, is above the most work of
-/// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-14 takes up to
-/// 4e10 and more, and a step of it up to a hundred times as long. To bound the run time, choose a smaller
-/// one (`docs/speed.md` has the time for a work) and limit lists, disks and cells: the other stages
-/// do what the sizes say.
+/// Usually each stage is linear in its lists; at most it takes the steps that [`most_steps`](steps::most_steps) counts by their
+/// sizes, each of at most 10 instructions.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     check_with(cycle, &Indexes::default(), scratch)
 }
@@ -76,7 +51,8 @@ pub fn check_indexed<'a>(
     check_with(cycle, &Indexes { route: Some(index), detections: &[] }, scratch)
 }
 
-/// As `check`, with what the caller keeps. The answer is the same. Source:
+/// As `check`, with what the caller keeps. The answer is the same, but where `work_limit` fails H-14 and an object
+/// that meets the CAV does, too: which of them is found first. Source:
 /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 pub fn check_with<'a>(
     cycle: &Cycle<'a>,

@@ -132,30 +132,29 @@ impl GridGeometry {
     ) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
-            if self.row_is_free(disk, k, cells) {
-                return None;
-            }
-            let (from, to) = self.reach_in_row(disk, k);
+            let (from, to) = self.columns_near(disk, k)?;
             cells.set_in_row(k, from, to).find_map(|i| hit(i, k))
         })
     }
 
-    /// Whether certainly no cell of the row that the disk may touch is set. Plain doubles, in cells;
-    /// 1e-3 is more than they err, also at the limits of the domain.
-    fn row_is_free(&self, disk: &Disk<'_>, k: i64, cells: &Bitmap<'_>) -> bool {
+    /// The first and the last column that the disk may touch in row `k`. Plain doubles, in cells; 1e-3 is more
+    /// than they err, also at the limits of the domain.
+    fn columns_near(&self, disk: &Disk<'_>, k: i64) -> Option<(i64, i64)> {
         let scale = 1.0 / self.resolution.value();
         let [x, y, r] = [disk.column, disk.row, self.radius].map(|it| it.value() * scale);
         let (r, below) = (r + 1e-3, float(k) - y);
         let gap = larger(larger(below, -1.0 - below), 0.0);
         if gap > r {
-            return true;
+            return None;
         }
         let half = libm::sqrt(r * r - gap * gap) + 1e-3;
-        let (width, from, to) = (float(self.width), x - half - 1.0, x + half + 1.0);
+        let (width, from, to) = (float(self.width), x - half - 1.0, x + half);
         if to < 0.0 || from > width {
-            return true;
+            return None;
         }
-        cells.row_is_free(k, integer(larger(from - 0.5, 0.0)), integer(smaller(to + 0.5, width)))
+        // The nearest integers to these are not above the least and not below the greatest column.
+        let (from, to) = (larger(from, 0.0) + 0.499, smaller(to, width) - 0.499);
+        Some((integer(from), integer(larger(to, 0.0))))
     }
 
     /// Places outside the grid may be at distance <= r.
@@ -173,12 +172,6 @@ impl GridGeometry {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);
         touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
-    }
-
-    /// The first and the last column that the disk may touch in row `k`.
-    fn reach_in_row(&self, disk: &Disk<'_>, k: i64) -> (i64, i64) {
-        let chord_squared = self.radius_squared - self.gap(disk.row, k).squared();
-        self.reach(disk.column, chord_squared.max(Real::ZERO).sqrt())
     }
 
     /// The first and the last column (or row) that may be as near; at most two too many on either

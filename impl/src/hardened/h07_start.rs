@@ -103,7 +103,8 @@ fn not_along(
     let heading = Vector::new(point.cos, point.sin);
     let (least, nearest) = route.path_distance(q, *hint);
     *hint = nearest;
-    route.segments(q, least.magnitude()).find_map(|segment| {
+    let near = route.segments(q, least.magnitude());
+    near.filter(|segment| !route.is_farther(q, segment, least)).find_map(|segment| {
         let away = segment_distance(q, segment.from, segment.to);
         let along = heading.dot(Vector::between(segment.from, segment.to));
         if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {

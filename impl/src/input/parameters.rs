@@ -47,8 +47,8 @@ macro_rules! parameters {
             t_yield: f64 = 2.0 in [0.0, 60.0];
             /// H-14: how hard they brake then, m/s^2.
             a_yield: f64 = 3.0 in [0.1, 100.0];
-            /// Stage i fails rather than begin an assignment of more work than this.
-            work_limit: i64 = 10_000_000_000 in [0, i64::MAX];
+            /// Stage i fails rather than begin an assignment of more steps than this, H-14 once it has taken more.
+            work_limit: i64 = 340_000 in [0, i64::MAX];
             /// Margin of the strict and the lax model, m; no verdict of this crate depends on it.
             delta: f64 = 1e-6 in [1e-8, 1e-2];
         }

@@ -5,9 +5,11 @@ use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
 use super::released::{Released, if_kept, is_last_used, is_ticked};
+use super::settings::{MonitorError, Settings};
 use super::stall::Stall;
 use super::time::Time;
 use crate::cycle::check_with;
+use crate::cycle::steps::{Counts, LISTS};
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
@@ -210,6 +212,7 @@ impl Monitor<'_> {
         let scratch = &mut Scratch::new(self.rows, self.columns);
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
             let indexes = Indexes { route, detections: &[] };
+            in_time(&self.settings, &self.in_time, &cycle)?;
             if tracks_fit {
                 return check_with(&cycle, &indexes, scratch);
             }
@@ -220,6 +223,7 @@ impl Monitor<'_> {
         let holds = self.history.holds(&list);
         let selection = self.history.select(&list);
         cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
+        in_time(&self.settings, &self.in_time, &cycle)?;
         let report =
             check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch);
         if_kept(&report, [holds, tracks_fit])?;
@@ -230,6 +234,22 @@ impl Monitor<'_> {
         }
         report
     }
+}
+
+/// Whether the cycle is checked in time, whatever it holds (`spec/4-arithmetic.md#steps`): what is no longer
+/// than `known` is.
+///
+/// Errors: the list that is too long.
+fn in_time(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Result<(), InvalidInput> {
+    let counts = Counts::of(cycle);
+    if counts.is_within(known) {
+        return Ok(());
+    }
+    settings.check_steps(&counts, &LISTS).map_err(|error| {
+        let field =
+            if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
+        InvalidInput { field, index: None, problem: Problem::TooMany }
+    })
 }
 
 /// The problem; of a route that was never set that, and not that it has too few cross sections.

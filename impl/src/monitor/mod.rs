@@ -13,6 +13,7 @@
 //! out is examined as moving (H-14). Both show in [`Requester::hold_until_ns`].
 
 pub(crate) mod arriving;
+mod calibration;
 mod cycle;
 mod decision;
 mod element;
@@ -41,6 +42,7 @@ use self::memory::Lengths;
 use self::route::KeptRoute;
 use self::served::Served;
 use self::stall::Progress;
+use crate::cycle::steps::Counts;
 use crate::input::cycle::Route;
 use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::per_group::PerGroup;
@@ -62,6 +64,8 @@ pub struct Monitor<'a> {
     progress: Progress,
     history: History<'a>,
     route: KeptRoute<'a>,
+    /// Sizes that are checked in time, whatever a cycle of them holds.
+    in_time: Counts,
     rows: &'a mut [Row],
     columns: &'a mut [Column],
 }
@@ -71,7 +75,7 @@ impl<'a> Monitor<'a> {
     /// until the first `area`.
     ///
     /// Errors: settings that no monitor can keep, such as a `dt_max` that is not above the period; too
-    /// little memory. Source: `spec/monitor.md#monitor`.
+    /// little memory; more than is checked in `check_time` (`spec/4-arithmetic.md#steps`). Source: `spec/monitor.md#monitor`.
     pub fn new(settings: Settings, memory: Memory<'a>) -> Result<Self, MonitorError> {
         settings.check()?;
         let Memory { stations, rows, columns, detections, slots, cross_sections, blocks } = memory;
@@ -83,6 +87,8 @@ impl<'a> Monitor<'a> {
             slots: slots.len(),
         };
         let capacity = lengths.capacity(settings.profile.looks_back())?;
+        let detected = if settings.profile.looks_back() { capacity } else { columns.len() };
+        let in_time = settings.in_time([rows.len(), detected, cross_sections.len()])?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
         Ok(Self {
@@ -94,9 +100,17 @@ impl<'a> Monitor<'a> {
             progress: Progress::default(),
             history: History::new(detections, slots, capacity).ok_or(too_few)?,
             route: KeptRoute::new(cross_sections, blocks),
+            in_time,
             rows,
             columns,
         })
+    }
+
+    /// Takes about 10^5 steps and says how many: measure how long it takes, several times, on the processor
+    /// and with the build that the vehicle uses. The longest time in ps, divided by these steps, is
+    /// `Settings::step_ps`. Source: `spec/4-arithmetic.md#steps`.
+    pub fn calibrate() -> u64 {
+        calibration::run()
     }
 
     /// From now on the CAV follows this route, of which a copy is kept.

@@ -5,6 +5,7 @@ use core::time::Duration;
 
 use super::stall::Stall;
 use super::time::Time;
+use crate::cycle::steps::{Counts, LISTS, List, most_steps};
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -40,6 +41,11 @@ pub struct Settings {
     pub supervise_local: bool,
     /// When planning that gets nowhere is given back (F-45); `None`, as by default: never.
     pub stall: Option<Stall>,
+    /// How long a cycle may take: what may take longer is refused, by [`Monitor::new`](super::Monitor::new) or,
+    /// where no memory bounds it, by the cycle.
+    pub check_time: Duration,
+    /// What a step costs on this processor, ps: [`Monitor::calibrate`](super::Monitor::calibrate).
+    pub step_ps: u64,
 }
 
 impl Settings {
@@ -55,7 +61,16 @@ impl Settings {
             sessions_before: 0,
             supervise_local: false,
             stall: None,
+            check_time: Duration::from_millis(10),
+            step_ps: 750,
         }
+    }
+
+    /// The same for who does not mind how long a cycle takes: nothing is refused for its length. Source:
+    /// `spec/4-arithmetic.md#steps`.
+    #[must_use]
+    pub const fn in_any_time(self) -> Self {
+        Self { check_time: Duration::MAX, ..self }
     }
 
     /// Whether a monitor may be made with it, apart from its memory.
@@ -105,6 +120,47 @@ impl Settings {
         let tau_ns = (self.stages.tau * 1e9) as i64;
         let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
         self.profile.has(HardenedRule::H14).then(by)
+    }
+
+    /// The most steps that a run of the stages may take: a cycle may run them twice where it supervises.
+    pub(super) fn steps_in_time(&self) -> u64 {
+        let ps = self.check_time.as_nanos().saturating_mul(1000);
+        let steps = ps.checked_div(u128::from(self.step_ps)).unwrap_or(u128::MAX);
+        let steps = if self.supervise_local { steps >> 1 } else { steps };
+        u64::try_from(steps).unwrap_or(u64::MAX)
+    }
+
+    /// Whether what fits into memory for so many tracks, detections and cross sections is checked in time, with
+    /// 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
+    /// is too much.
+    ///
+    /// Errors: which of the lists is too long. Source: `spec/4-arithmetic.md#steps`.
+    pub fn check_lists(
+        &self,
+        tracks: usize,
+        detections: usize,
+        cross_sections: usize,
+    ) -> Result<(), MonitorError> {
+        self.in_time([tracks, detections, cross_sections]).map(drop)
+    }
+
+    /// The same, and how long everything may be.
+    pub(super) fn in_time(&self, lent: [usize; 3]) -> Result<Counts, MonitorError> {
+        let counts = Counts::lent(self.profile, lent);
+        self.check_steps(&counts, LISTS.get(..lent.len()).unwrap_or(&LISTS))?;
+        Ok(counts)
+    }
+
+    /// Whether so much is checked in time; if not, which list of these is too long.
+    pub(super) fn check_steps(&self, counts: &Counts, among: &[List]) -> Result<(), MonitorError> {
+        let (in_time, stages) = (self.steps_in_time(), &self.stages);
+        let steps = most_steps(counts, stages).total();
+        if steps <= in_time {
+            return Ok(());
+        }
+        let too_long = counts.too_long(stages, in_time, among);
+        let (list, given, most) = too_long.unwrap_or(("check_time", 0, 0));
+        Err(MonitorError::TooSlow { list, given, most, steps, most_steps: in_time })
     }
 
     /// The nominal period of the remote's results, saturated.
@@ -194,6 +250,19 @@ pub enum MonitorError {
         /// How many it has.
         given: usize,
     },
+    /// What fits into the memory that is lent may take longer than `check_time`.
+    TooSlow {
+        /// The list that is too long.
+        list: &'static str,
+        /// How long it may become.
+        given: u32,
+        /// How long it may be while all others are as they are; 0 where it alone does not help.
+        most: u32,
+        /// The steps that a run of the stages may take.
+        steps: u64,
+        /// And that it may take in `check_time`.
+        most_steps: u64,
+    },
 }
 
 impl fmt::Display for MonitorError {
@@ -237,6 +306,13 @@ impl fmt::Display for MonitorError {
                 "settings.stall: {way_m} m in {} s is no way from 0 m on in at least 1 s; give the longest \
                  stop that a station's planning may make, or None",
                 time.as_secs_f64()
+            ),
+            Self::TooSlow { list, given, most, steps, most_steps } => write!(
+                f,
+                "{list}: memory for {given} is too much by {}: a cycle may take {steps} steps, and \
+                 settings.check_time has room for {most_steps}; lend less, lower stages.work_limit, give \
+                 more time, or the measured step_ps",
+                given.saturating_sub(most)
             ),
             Self::Memory { field, needed, given } => {
                 write!(f, "memory.{field} has {given} elements; lend at least {needed}")?;

@@ -52,6 +52,7 @@ fn stages_iii_and_iv_decide_every_pair() {
 fn h14_decides_every_place_and_motion() {
     let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
     scene.ego.speed = 0.0;
+    scene.parameters.work_limit = i64::MAX;
     scene.points.truncate(1);
     let rule = |scene: &Scene| scene.failure_of_iv().map(|it| it.rule);
     scene.tracks = Some(tracks(1024, BESIDE));

@@ -15,3 +15,4 @@ mod motions;
 mod profiles;
 mod scene;
 mod slide;
+mod work;

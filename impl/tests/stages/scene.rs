@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use mufasa::cycle::steps::{Counts, Steps, most_steps};
 use mufasa::cycle::{self, ValidCycle};
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
@@ -106,6 +107,11 @@ impl Scene {
                 None
             }
         }
+    }
+
+    /// The most steps that it takes.
+    pub fn steps(&self) -> Steps {
+        self.both_ways(|cycle, _, _| most_steps(&Counts::of(cycle), &cycle.parameters))
     }
 
     fn both_ways<R: PartialEq + Debug>(

@@ -133,11 +133,13 @@ pub fn settings(played: &Played, requester: &Parameters) -> Settings {
     if profile == Profile::HARDENED {
         stages.tau = stages.tau.max(TAU_PERIODS * period.as_secs_f64());
     }
-    Settings {
+    let settings = Settings {
         profile,
         stages,
         requester: bridge::parameters_to_impl(requester),
         period,
         ..Settings::new(period)
-    }
+    };
+    // Lent memory for all of the domain.
+    settings.in_any_time()
 }

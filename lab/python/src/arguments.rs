@@ -40,6 +40,10 @@ arguments! { by value;
     MostStations(usize) of "most_stations";
     /// The nominal period.
     Period(Duration) of "period";
+    /// How long a cycle may take.
+    CheckTime(Duration) of "check_time";
+    /// What a step costs, ps.
+    StepPs(u64) of "step_ps";
     /// A time, ns.
     Nanoseconds(i64) of "nanoseconds";
     /// A time, us.

@@ -1,6 +1,7 @@
 //! `mufasa::monitor::Monitor` as a Python object (`spec/monitor.md#monitor`).
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
@@ -16,8 +17,8 @@ use pyo3::prelude::*;
 
 use crate::actions::{Actions, ToDo};
 use crate::arguments::{
-    MostStations, OneGroup, OneOfGroups, OneProfile, Period, Session, SessionsBefore, Station,
-    in_domain,
+    CheckTime, MostStations, OneGroup, OneOfGroups, OneProfile, Period, Session, SessionsBefore,
+    Station, StepPs, in_domain,
 };
 use crate::decision::Decision;
 use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, wrong};
@@ -58,17 +59,22 @@ impl Monitor {
     #[new]
     #[pyo3(signature = (
         period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
-        sessions_before = SessionsBefore(0), most_stations = MostStations(64)
-    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64)")]
+        sessions_before = SessionsBefore(0), most_stations = MostStations(64), check_time = None,
+        step_ps = StepPs(750)
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750)")]
     fn new(
         period: Period,
         profile: OneProfile,
         parameters: Option<&Bound<'_, PyAny>>,
         sessions_before: SessionsBefore,
         most_stations: MostStations,
+        check_time: Option<CheckTime>,
+        step_ps: StepPs,
     ) -> PyResult<Self> {
         let sessions_before = sessions_before.0;
         let mut settings = Settings { sessions_before, ..Settings::new(period.0) };
+        settings.check_time = check_time.map_or(Duration::MAX, |it| it.0);
+        settings.step_ps = step_ps.0;
         settings.profile = bridge::profile_to_impl(profile.0);
         if let Some(parameters) = parameters {
             let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
@@ -400,6 +406,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",
         MonitorError::Stall { .. } => "stall",
+        MonitorError::TooSlow { .. } => "check_time",
     };
     let message = error.to_string();
     let message = message.trim_start_matches("settings.").trim_start_matches("requester.");

@@ -345,6 +345,9 @@ def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
         ({"most_stations": 0}, "most_stations"),
         ({"most_stations": -1}, "most_stations"),
         ({"most_stations": 2**40}, "most_stations"),
+        ({"check_time": timedelta(milliseconds=10)}, "check_time"),
+        ({"check_time": timedelta(hours=1), "step_ps": 2**64 - 1}, "check_time"),
+        ({"check_time": timedelta(milliseconds=-1)}, "check_time"),
         ({"profile": "lax"}, "profile"),
     ],
 )

@@ -131,12 +131,14 @@ impl Settings {
         let period = Duration::from_nanos(self.period_ns.unsigned_abs());
         let is_above = self.stages.tau > period.as_secs_f64();
         let period = if is_above { period } else { period.saturating_sub(Duration::from_nanos(1)) };
-        monitor::Settings {
+        let settings = monitor::Settings {
             profile,
             stages: self.stages,
             requester: self.requester,
             supervise_local: self.supervise_local.is_some(),
             ..monitor::Settings::new(period)
-        }
+        };
+        // Lent memory for all of the domain.
+        settings.in_any_time()
     }
 }

@@ -126,10 +126,10 @@ fn any_settings() -> Settings {
         profile: Profile::PAPER,
         stages,
         requester,
-        period: span(),
         sessions_before: near_integer(0, 4),
         supervise_local: kani::any(),
         stall: option(|| Stall { way_m, time }),
+        ..Settings::new(span())
     }
 }
 

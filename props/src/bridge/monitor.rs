@@ -62,15 +62,17 @@ pub fn settings_to_impl(settings: &Settings) -> Option<twin::Settings> {
         None => None,
         Some(Stall { way, time_ns }) => Some(twin::Stall { way_m: way, time: span(time_ns)? }),
     };
-    Some(twin::Settings {
+    let made = twin::Settings {
         profile: profile_to_impl(*profile),
         stages: cycle_parameters(parameters),
         requester: parameters_to_impl(requester),
-        period: span(*period_ns)?,
         sessions_before: *last_session,
         supervise_local: *supervise_local,
         stall,
-    })
+        ..twin::Settings::new(span(*period_ns)?)
+    };
+    // The model takes any time.
+    Some(made.in_any_time())
 }
 
 /// The memory of these settings.

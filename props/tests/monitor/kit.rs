@@ -24,7 +24,8 @@ impl Buffers {
     }
 
     pub fn monitor(&mut self, settings: Settings) -> Result<Monitor<'_>, MonitorError> {
-        Monitor::new(settings, self.0.memory())
+        // There is memory for all tracks of the domain.
+        Monitor::new(settings.in_any_time(), self.0.memory())
     }
 
     /// A monitor with the settings of this kit that has just been started on this road.

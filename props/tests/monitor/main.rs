@@ -11,6 +11,7 @@ mod dropped;
 mod early;
 mod game;
 mod habits;
+mod in_time;
 mod kit;
 mod limits;
 mod misuse;

@@ -1,7 +1,10 @@
 //! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`).
 
-use mufasa_model::input::cycle::Profile;
+use mufasa_model::cycle::check;
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::report::{Reading, Rule};
 use mufasa_props::differential::{agree, hold, near_threshold, same_witness};
+use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::fail_safe;
 
 #[test]
@@ -14,4 +17,36 @@ fn hardened() {
 fn the_witness() {
     hold("witness of H-14", Profile::HARDENED, fail_safe::cycle, near_threshold, same_witness)
         .assert_aimed(&["iv", "safe"]);
+}
+
+/// H-14.52, MARGIN-09: the limit is what the strict model counts, which an implementation has to bear, or less
+/// by one.
+#[test]
+fn limited() {
+    let tally = agree("H-14, limited", Profile::HARDENED, limited_cycle, near_threshold);
+    assert!(10 * tally.undecided > tally.cases, "the limit decides: {tally}");
+    tally.assert_aimed(&["iv", "safe"]);
+}
+
+fn limited_cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = fail_safe::cycle(draw, profile);
+    cycle.parameters.work_limit = i64::MAX;
+    if check(&cycle, Reading::Strict).is_err() {
+        return cycle;
+    }
+    // Pairs are counted first, and then the motions with them.
+    cycle.parameters.work_limit = 0;
+    while let Some(steps) = too_much(&cycle) {
+        cycle.parameters.work_limit = steps;
+    }
+    cycle.parameters.work_limit -= i64::from(draw.one_in(2));
+    cycle.parameters.work_limit = cycle.parameters.work_limit.max(0);
+    cycle
+}
+
+/// The steps that are too many for the strict model, if they are.
+fn too_much(cycle: &Cycle) -> Option<i64> {
+    let report = check(cycle, Reading::Strict).expect("valid");
+    let witness = report.witness().filter(|witness| witness.rule == Rule::WorkLimit)?;
+    witness.compared[0].to_string().parse().ok()
 }

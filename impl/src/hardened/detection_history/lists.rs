@@ -1,7 +1,9 @@
 //! The usable lists, as H-14 looks into them (SEEN-01, SEEN-02).
 
+use crate::cycle::steps::SUPPORT;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Detection, Track, TrackList};
 use crate::input::scratch::{Column, Row};
 use crate::numbers::range::larger;
@@ -41,6 +43,8 @@ pub(crate) struct Lists<'m, 'c, 'a> {
     pasts: [Option<Past<'c>>; 4],
     /// By squares, once they are needed.
     squares: [Option<Squares<'c>>; 4],
+    /// What was done with them, and with what they show.
+    pub(crate) work: Work,
 }
 
 impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
@@ -60,7 +64,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 });
             }
         }
-        Self { cycle, history, pasts, squares: [None; 4] }
+        Self { cycle, history, pasts, squares: [None; 4], work: Work::new(&cycle.parameters) }
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -118,6 +122,11 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     ) -> bool {
         let reach = self.stands_within();
         let [before_x, before_y] = before;
+        if self.work.is_too_much() {
+            // The stage fails anyhow.
+            return true;
+        }
+        self.work.add(SUPPORT);
         let mut alone = true;
         for (list, squares) in self.squares.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
@@ -125,6 +134,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                 continue;
             }
             alone = false;
+            self.work.add(u64::try_from(other.items.len()).unwrap_or(u64::MAX));
             let mut supported = false;
             let share = other.age / own.age;
             let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);

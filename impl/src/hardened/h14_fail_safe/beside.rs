@@ -5,7 +5,9 @@
 //! what is compared does. Only what these leave open is compared with error bounds, and these are found
 //! once for all objects.
 
+use crate::cycle::steps::{PLACE, SEGMENT};
 use crate::hardened::h14_fail_safe::path::{Path, Place};
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::Ego;
 use crate::numbers::plane::{Vector, distance_to_segment, from_segment};
 use crate::numbers::range::{larger, smaller};
@@ -61,20 +63,22 @@ impl<'c, 'a> Beside<'c, 'a> {
     }
 
     /// Whether the object certainly does, if it does not lie across the way.
-    pub(super) fn keeps(&mut self, object: &Passing) -> bool {
+    pub(super) fn keeps(&mut self, object: &Passing, work: &Work) -> bool {
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
         if lane.is_open == Some(false) || !object.comes_towards && !self.is_straight() {
             return false;
         }
-        let Some((away, needed)) = self.needed(object, lane.hint) else { return false };
+        let Some((away, needed)) = self.needed(object, lane.hint, work) else { return false };
         lane.has_room_for(away.value(), needed.value()).unwrap_or_else(|| {
             if lane.is_closed_up {
                 let [least, greatest] = self.sides(&lane);
                 let room = (least - away).max(away - greatest);
                 return needed.certainly_below(room * away);
             }
-            let has_none =
-                |place: &Place| (!self.has_room(place, &lane, (away, needed))).then_some(());
+            let has_none = |place: &Place| {
+                work.add(PLACE);
+                (!self.has_room(place, &lane, (away, needed))).then_some(())
+            };
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
     }
@@ -101,11 +105,14 @@ impl<'c, 'a> Beside<'c, 'a> {
 
     /// D, and what has to be less than the room beside the CAV times D; of several nearest points of the
     /// reference path the most. `None` where the object certainly keeps beside nothing.
-    fn needed(&self, object: &Passing, hint: usize) -> Option<(Real, Real)> {
+    fn needed(&self, object: &Passing, hint: usize, work: &Work) -> Option<(Real, Real)> {
         let Rectangle { centre, direction, length, width } = object.now;
         let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
         let nearest = self.route.nearest(centre, hint);
         let away = nearest.0;
+        let [x, y] = [centre.x.value(), centre.y.value()];
+        let near = self.route.segments([x, y], away.value()).count();
+        work.add(SEGMENT.saturating_mul(u64::try_from(near).unwrap_or(u64::MAX)));
         let is_near = away.certainly_at_most(Real::new(FARTHEST));
         if !is_near || !Real::ZERO.certainly_below(away) || !self.route.certainly_has_beside(centre)
         {

@@ -5,11 +5,13 @@
 
 use core::cell::LazyCell;
 
+use crate::cycle::steps::{BOX, MOTION, PIECE, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
 use crate::hardened::h14_fail_safe::spot::Spot;
+use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -108,7 +110,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
 
     /// The first place where the object may meet the CAV, if that is before the place with that number, and
     /// the object is examined.
-    pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
+    pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
         let (cycle, object) = (self.cycle(), self.plainly(motion));
         let exact = LazyCell::new(|| Exact::new(cycle, motion));
         let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
@@ -118,7 +120,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
             let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
             Places { path, points, ego: *ego, starts, beside }
         });
-        let boxes = (&*covers, &*clock);
+        let boxes = (&*covers, &*clock, work);
         let comes_across = || exact.comes_across;
         let meets = |place: &Place| {
             (place.number >= before || places.meets(place, &object, clock, comes_across))
@@ -142,6 +144,9 @@ fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Pieces<'a>>; MOST
     starts
 }
 
+/// What lies around all places, when, and what looking there has taken.
+type Boxes<'b> = (&'b Covers, &'b Clock, &'b Work);
+
 /// The CAV at the places, with error bounds.
 struct Places<'c, 'a> {
     path: Path<'c, 'a>,
@@ -161,9 +166,10 @@ impl<'c, 'a> Places<'c, 'a> {
     fn first<T>(
         &self,
         object: &Object,
-        (covers, clock): (&Covers, &Clock),
+        (covers, clock, work): Boxes<'_>,
         mut find: impl FnMut(&Place) -> Option<T>,
     ) -> Option<T> {
+        work.add(MOTION);
         let mut done = 0;
         self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
             let [first, last] = stretch.lines;
@@ -174,8 +180,15 @@ impl<'c, 'a> Places<'c, 'a> {
             done = last.saturating_add(1);
             let pieces = start.clone()?.take(done.saturating_sub(first));
             pieces.skip(from.saturating_sub(first)).find_map(|piece| {
-                let misses = |run| self.run(&piece, run, clock).misses(object, clock);
-                piece.first_place(misses, &mut find)
+                work.add(PIECE);
+                let misses = |run| {
+                    work.add(BOX);
+                    self.run(&piece, run, clock).misses(object, clock)
+                };
+                piece.first_place(misses, |place| {
+                    work.add(PLACE);
+                    find(place)
+                })
             })
         })
     }
@@ -214,7 +227,7 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
-    fn is_exempt(&mut self, (object, exact): (&Object, &Exact), boxes: (&Covers, &Clock)) -> bool {
+    fn is_exempt(&mut self, (object, exact): (&Object, &Exact), boxes: Boxes<'_>) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), exact.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
@@ -228,12 +241,13 @@ impl<'c, 'a> Places<'c, 'a> {
             let (until, comes_towards) =
                 (self.until_yielded(speed), across.certainly_at_most(-along));
             let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
-            self.beside.keeps(&passing) && !self.may_lie_across(&object.standing(from), boxes)
+            self.beside.keeps(&passing, boxes.2)
+                && !self.may_lie_across(&object.standing(from), boxes)
         }
     }
 
     /// Whether an object that stands may share a point with the CAV at some place.
-    fn may_lie_across(&self, object: &Object, boxes: (&Covers, &Clock)) -> bool {
+    fn may_lie_across(&self, object: &Object, boxes: Boxes<'_>) -> bool {
         let touches = |place: &Place| {
             (!Spot::new(&self.ego, place).is_missed(object, [0.0; 2], boxes.1)).then_some(())
         };

@@ -11,6 +11,7 @@ pub(crate) mod path;
 pub(crate) mod reach;
 mod spot;
 pub(crate) mod times;
+pub(crate) mod work;
 
 use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
@@ -18,12 +19,11 @@ use crate::hardened::detection_history::lists::Lists;
 use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h14_fail_safe::meeting::Meeting;
 use crate::hardened::h14_fail_safe::motions::Motions;
-use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::path::Nodes;
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
 use crate::input::scratch::Scratch;
-use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
-use crate::report::{Rule, Witness};
+use crate::report::Witness;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
 /// What the rule examines; all of it current.
@@ -50,9 +50,6 @@ impl FailSafe<'_, '_> {
             return None;
         }
         let nodes = Nodes::new(cycle, trajectory.points);
-        if let Some(witness) = self.over_work_limit(nodes, [objects, detected]) {
-            return Some(witness);
-        }
         if let (Seen::Unclear(witness), true) = (self.seen, tracks.is_some()) {
             // Where stage i ran, it has failed.
             return Some(witness);
@@ -74,36 +71,7 @@ impl FailSafe<'_, '_> {
         if let Some(list) = detections {
             motions.detections(list, age(list.stamp_ns), tracks, scratch);
         }
-        motions.first.map(|found| found.witness)
+        let failure = motions.lists.work.failure();
+        failure.or_else(|| motions.first.map(|found| found.witness))
     }
-
-    /// (Places + points) times tracks, plus detections times items of the longest usable list times (items
-    /// of all usable lists + places + points). The places are counted only where it may be too much.
-    fn over_work_limit(&self, nodes: Nodes<'_, '_>, objects: [usize; 2]) -> Option<Witness> {
-        let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
-        let [tracks, detections] = objects.map(count);
-        let items = || self.history.usable.iter().flatten().map(|list| count(list.items.len()));
-        let longest = items().fold(1, i64::max);
-        let limit = self.cycle.parameters.work_limit;
-        let work = |places: i64| {
-            let places = places.saturating_add(count(self.trajectory.points.len()));
-            let each = longest.saturating_mul(items().fold(places, i64::saturating_add));
-            places.saturating_mul(tracks).saturating_add(detections.saturating_mul(each))
-        };
-        if work(at_least(nodes.most_places())) <= limit {
-            return None;
-        }
-        let work = work(Path::new(nodes).count());
-        let compared = || [work, limit].map(|steps| Real::integer(steps).value());
-        (work > limit).then(|| Witness::of(Rule::WorkLimit, compared()))
-    }
-}
-
-/// A whole number that is not less.
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "what is larger than any integer is the largest"
-)]
-fn at_least(number: f64) -> i64 {
-    -libm::floor(-number) as i64
 }

@@ -6,6 +6,7 @@
 //! explained detection is disputed is asked late, of a pair that boxes let meet it (`disputed`, with what
 //! it costs).
 
+use crate::cycle::steps::{MOTION, PAIR};
 use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
@@ -102,10 +103,13 @@ impl Motions<'_, '_, '_> {
         let end = self
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
-        if !self.meeting.may_be_met(motion) || !counts(self) {
+        self.lists.work.add(MOTION);
+        let is_over = self.lists.work.is_too_much();
+        if is_over || !self.meeting.may_be_met(motion) || !counts(self) {
             return;
         }
-        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end) {
+        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end, &self.lists.work)
+        {
             let found = Witness::of(Rule::FailSafe, ways).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });
         }
@@ -137,9 +141,13 @@ impl Motions<'_, '_, '_> {
         };
         let rate = 1.0 / usable.age;
         squares.for_each_in(scratch.columns, around, |item, before| {
+            if self.lists.work.is_too_much() {
+                return;
+            }
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = now.coming_from(before, usable.age_ns, rate);
             if x * x + y * y <= reach * reach {
+                self.lists.work.add(PAIR);
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
                 self.keep_pair(&motion, &pair, |_| true);
@@ -167,10 +175,15 @@ impl Motions<'_, '_, '_> {
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
         squares.for_each_in(scratch.columns, area, |item, before| {
+            if self.lists.work.is_too_much() {
+                return;
+            }
             let (x, y) = (now.x - before[0], now.y - before[1]);
             if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
                 return;
             }
+            // What an index shows besides is no more than each item once.
+            self.lists.work.add(PAIR);
             let motion = motion.coming_from(before, list.age_ns, rate);
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };

@@ -91,11 +91,6 @@ impl<'c, 'a> Path<'c, 'a> {
         let next = Node { at: [x, y], heading: [cos, sin], way: Real::ZERO, before: None };
         Pieces { next: Some(next), nodes: points, s_stop: self.times.s_stop, d, first: 0 }
     }
-
-    /// How many places there are.
-    pub(crate) fn count(&self) -> i64 {
-        self.pieces().fold(0, |count, piece| count.saturating_add(piece.count()))
-    }
 }
 
 /// A piece in plain doubles, from the CAV's reference point.

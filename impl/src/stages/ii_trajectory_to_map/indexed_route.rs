@@ -92,7 +92,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let start = self.segment(hint).map_or(unknown, |segment| (length(&segment), hint));
         let reach = start.0.magnitude();
         self.segments(q, reach).fold(start, |(best, at), segment| {
-            if apart(segment, q) > best.magnitude() {
+            if self.is_farther(q, &segment, best) {
                 return (best, at);
             }
             let candidate = length(&segment);
@@ -100,6 +100,12 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
             let at = if nearer { segment.index } else { at };
             (best.min(candidate), at)
         })
+    }
+
+    /// Whether the segment certainly is farther than that, in plain doubles: `at_most` is less than 1e-5 m more
+    /// than the distance.
+    pub(crate) fn is_farther(&self, q: [f64; 2], segment: &Segment, distance: Real) -> bool {
+        self.at_most(q, segment.index) > distance.magnitude() + 1e-5
     }
 
     /// The witness that a place is too far from the reference path.
@@ -175,7 +181,13 @@ fn in_triangle(corners: [[f64; 2]; 3], q: [f64; 2]) -> bool {
     if !(0..2).all(|axis| in_range(corners, q, axis)) {
         return false;
     }
-    let sides = [orientation(a, b, q), orientation(b, c, q), orientation(c, a, q)];
+    // Most are told apart without exact numbers, which a triangle without width would always need.
+    let sides = [[a, b], [b, c], [c, a]];
+    let certain = sides.map(|[from, to]| certain_orientation(from, to, q));
+    if certain.iter().any(|&side| side > 0.0) && certain.iter().any(|&side| side < 0.0) {
+        return false;
+    }
+    let sides = sides.map(|[from, to]| orientation(from, to, q));
     sides.iter().all(|&side| side != Ordering::Less)
         || sides.iter().all(|&side| side != Ordering::Greater)
 }

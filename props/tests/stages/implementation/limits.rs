@@ -77,7 +77,11 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
     let length = 4.0;
     Cycle {
         profile,
-        parameters: mufasa_model::input::parameters::Parameters { n: 64, ..Default::default() },
+        parameters: mufasa_model::input::parameters::Parameters {
+            n: 64,
+            work_limit: i64::MAX,
+            ..Default::default()
+        },
         now_ns: 0,
         configuration,
         ego: Ego {

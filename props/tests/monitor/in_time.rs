@@ -1,0 +1,120 @@
+//! What a monitor is refused for because its cycles may be late (`spec/4-arithmetic.md#steps`).
+
+use std::time::Duration;
+
+use mufasa::cycle::steps::{Counts, most_steps};
+use mufasa::input::cycle::{Cycle, TrajectoryPoint};
+use mufasa::input::profile::Profile;
+use mufasa::monitor::{Decision, GridMap, Inputs, Monitor, MonitorError, Settings};
+use mufasa::report::{InvalidInput, Problem};
+use mufasa::services::configuration::Configuration;
+use mufasa_props::lent::Lent;
+
+use super::kit::{MS, World, at, road, route};
+
+/// With steps of 1 ns.
+fn within(steps: u64) -> Settings {
+    let settings = Settings::new(Duration::from_millis(50));
+    Settings { check_time: Duration::from_nanos(steps), step_ps: 1000, ..settings }
+}
+
+/// Memory for so many tracks, detections and cross sections.
+fn memory([tracks, detections, cross_sections]: [usize; 3]) -> Lent {
+    let mut lent = Lent::new(8, detections, cross_sections);
+    lent.rows.truncate(tracks);
+    lent.columns.truncate(tracks.max(detections + 4));
+    lent
+}
+
+/// IMPL-11: the lists of docs/configuration.md in the time of the default, 10 ms.
+#[test]
+fn the_recommended_lists_are_checked_in_time() {
+    let settings = Settings::new(Duration::from_millis(50));
+    assert!(Monitor::new(settings, memory([128, 256, 1024]).memory()).is_ok());
+    let all = || Monitor::new(settings, memory([1024, 2048, 8192]).memory()).map(drop);
+    assert!(matches!(all(), Err(MonitorError::TooSlow { most: 0, .. })));
+    assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
+}
+
+/// IMPL-11, IMPL-12: as many steps as fit are taken, one more is refused; the list that is named is too long
+/// by one.
+#[test]
+fn what_just_fits_is_taken_and_one_more_refused() {
+    let lent = [30, 40, 2000];
+    let error = within(1).check_lists(lent[0], lent[1], lent[2]).expect_err("too slow");
+    let MonitorError::TooSlow { list, given, most, steps, most_steps } = error else {
+        panic!("{error}");
+    };
+    assert_eq!((list, given, most, most_steps), ("cross_sections", 2000, 0, 1));
+    assert!(Monitor::new(within(steps), memory(lent).memory()).is_ok());
+    let shorter = within(steps - 1);
+    let error = Monitor::new(shorter, memory(lent).memory()).expect_err("too slow by a step");
+    let expected = MonitorError::TooSlow { list, given, most: 1999, steps, most_steps: steps - 1 };
+    assert_eq!(error, expected);
+    assert!(error.to_string().contains("cross_sections: memory for 2000 is too much by 1:"));
+    assert!(Monitor::new(shorter, memory([30, 40, 1999]).memory()).is_ok());
+    let twice = Settings { supervise_local: true, ..within(2 * steps) };
+    assert!(Monitor::new(twice, memory(lent).memory()).is_ok());
+    let twice = Settings { supervise_local: true, ..within(2 * steps - 1) };
+    assert!(Monitor::new(twice, memory(lent).memory()).is_err());
+}
+
+/// IMPL-13: a trajectory that fits into no memory of the monitor, and a grid.
+#[test]
+fn a_cycle_that_may_be_late_is_refused() {
+    let (world, road, bits) = (World::at(0), road(), [0; 8]);
+    let points: Vec<_> = (0..1024_i64)
+        .map(|i| TrajectoryPoint { t_ns: i * MS, x: world.ego.x, y: 0.0, cos: 1.0, sin: 0.0 })
+        .collect();
+    let map = GridMap {
+        x: 0.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 0.01,
+        width: 8,
+        height: 8,
+        occupied: &bits,
+        unknown: None,
+    };
+    let now = at(0);
+    let inputs = Inputs::new(now, world.ego).local_trajectory(now, &points).grid(now, map);
+    let grid = mufasa::input::cycle::Grid {
+        stamp_ns: 0,
+        x: 0.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 0.01,
+        width: 8,
+        height: 8,
+        occupied: &bits,
+        unknown: None,
+    };
+    let cycle = Cycle {
+        profile: Profile::HARDENED,
+        parameters: within(1).stages,
+        now_ns: 0,
+        configuration: Configuration::Local,
+        ego: world.ego,
+        trajectory: Some(mufasa::input::cycle::Trajectory { stamp_ns: 0, points: &points }),
+        tracks: None,
+        detections: None,
+        lead: None,
+        route: route(&road),
+        grid: Some(grid),
+        detection_history: &[],
+    };
+    let total = most_steps(&Counts::of(&cycle), &cycle.parameters).total();
+    for (steps, is_late) in [(total, false), (total - 1, true)] {
+        let mut lent = memory([8, 8, road.len()]);
+        let mut monitor = Monitor::new(within(steps), lent.memory()).expect("in time");
+        monitor.set_route(&route(&road)).expect("a route");
+        let problem = match monitor.cycle(&inputs).0 {
+            Decision::Unsafe { report: Err(problem), .. } => Some(problem),
+            Decision::Unsafe { report: Ok(_), .. } | Decision::Safe { .. } => None,
+        };
+        let late = InvalidInput { field: "cells", index: None, problem: Problem::TooMany };
+        assert_eq!(problem, is_late.then_some(late));
+    }
+}
