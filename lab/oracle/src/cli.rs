@@ -2,6 +2,7 @@
 
 mod arguments;
 mod conform;
+#[cfg(feature = "link")]
 pub(crate) mod link;
 #[cfg(test)]
 mod tests;
@@ -25,12 +26,16 @@ use self::arguments::{
     OracleArguments, SchemasArguments, VectorsArguments, file_or, folder_or,
 };
 use self::conform::{ConformArguments, MergeCommand};
+#[cfg(feature = "link")]
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
 use crate::ended::{BAD_INPUT, Ended, Stopped, cannot, complain, said};
+#[cfg(feature = "link")]
 use crate::evaluate;
+#[cfg(feature = "link")]
 use crate::evaluate::arguments::EvaluateArguments;
+#[cfg(feature = "link")]
 use crate::evaluate::merge::MergeArguments;
 use crate::explore;
 use crate::parameters_file;
@@ -82,12 +87,16 @@ enum Command {
     /// Search for cycles that take many instructions.
     Slow(slow::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
+    #[cfg(feature = "link")]
     Evaluate(EvaluateArguments),
     /// Put the parts of an experiment together that were made by `evaluate --shard`.
+    #[cfg(feature = "link")]
     Merge(MergeArguments),
     /// Drive a drive with requester and monitor, beside a station or over a broker.
+    #[cfg(feature = "link")]
     Vehicle(VehicleArguments),
     /// Serve vehicles over a broker, with stand-in services.
+    #[cfg(feature = "link")]
     Station(StationArguments),
     /// Write what a shell needs to complete what is typed on standard output.
     Completions(CompletionsArguments),
@@ -128,7 +137,14 @@ pub fn main() -> ExitCode {
         Command::Demo(it) => demo::run(&folder_or(it.out, demo::FOLDER), &mut out),
         Command::Oracle(OracleArguments { implementation }) => {
             let answer = if implementation { oracle::by_implementation } else { oracle::by_model };
-            oracle::run(io::stdin().lock(), &mut out, answer).map(|()| 0).map_err(Stopped::Stream)
+            if output_is_closed() {
+                Err("standard output is closed, so that nobody would get an answer"
+                    .to_owned()
+                    .into())
+            } else {
+                let answered = oracle::run(io::stdin().lock(), &mut out, answer);
+                answered.map(|()| 0).map_err(Stopped::Stream)
+            }
         }
         Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
@@ -138,11 +154,15 @@ pub fn main() -> ExitCode {
         Command::Explore(settings) => explore(&settings, &mut out),
         Command::Prove(settings) => prove(settings, &mut out),
         Command::Slow(settings) => slow::run(&settings, &mut out),
+        #[cfg(feature = "link")]
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
+        #[cfg(feature = "link")]
         Command::Merge(arguments) => merge(&arguments, &mut out),
+        #[cfg(feature = "link")]
         Command::Vehicle(arguments) => {
             interrupts().and_then(|stop| crate::link::vehicle(&arguments, &stop, &mut out))
         }
+        #[cfg(feature = "link")]
         Command::Station(arguments) => {
             interrupts().and_then(|stop| crate::link::station(&arguments, &stop, &mut out))
         }
@@ -167,6 +187,15 @@ pub fn main() -> ExitCode {
     // What could not be written is not tried again when the buffer is dropped.
     let _ = out.into_parts();
     ExitCode::from(code)
+}
+
+/// Whether standard output was closed before this program began: then Rust has opened /dev/null in its place, to read
+/// and write, where who asks for it to write opens it for that alone.
+fn output_is_closed() -> bool {
+    let is_null = fs::read_link("/proc/self/fd/1").is_ok_and(|it| it == Path::new("/dev/null"));
+    let about = fs::read_to_string("/proc/self/fdinfo/1").unwrap_or_default();
+    let flags = about.lines().find_map(|line| line.strip_prefix("flags:"));
+    is_null && flags.is_some_and(|flags| flags.trim().ends_with('2'))
 }
 
 /// What is said behind an error of `conform` whose program stands without `--` before it.
@@ -253,6 +282,7 @@ fn prove(mut settings: prove::Settings, out: &mut impl Write) -> Ended {
 }
 
 /// An experiment. Only a search outlives the first interrupt: of the others nothing is left.
+#[cfg(feature = "link")]
 fn evaluate(arguments: &EvaluateArguments, out: &mut impl Write) -> Ended {
     let stop = if arguments.is_search() { interrupts()? } else { Arc::default() };
     evaluate::run(arguments, &stop, out)
@@ -281,6 +311,7 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> Ended {
 }
 
 /// Parts of an experiment, or of a campaign of `conform`.
+#[cfg(feature = "link")]
 fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
     let MergeArguments { parts, map, out: folder } = arguments;
     if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {

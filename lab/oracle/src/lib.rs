@@ -5,9 +5,11 @@ pub mod compose;
 pub mod demo;
 pub mod document;
 mod ended;
+#[cfg(feature = "link")]
 pub mod evaluate;
 pub mod explore;
 mod limits;
+#[cfg(feature = "link")]
 mod link;
 pub mod parameters_file;
 pub mod prove;

@@ -5,11 +5,16 @@ use std::path::Path;
 
 use mufasa_conform::Summary;
 use mufasa_drives::check;
+#[cfg(feature = "link")]
 use mufasa_link::station::StationSummary;
+#[cfg(feature = "link")]
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
+#[cfg(feature = "link")]
 use mufasa_sim::experiment::made::Made;
+#[cfg(feature = "link")]
 use mufasa_sim::experiment::select::Part;
+#[cfg(feature = "link")]
 use mufasa_sim::experiment::{falsify, scenes};
 use serde_json::Value;
 
@@ -22,6 +27,19 @@ use crate::prove::claim::Claim;
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
     schemas.extend(check::records::schemas());
+    schemas.extend([
+        ("conform-summary", schema::written::<Summary>()),
+        ("claim", schema::written::<Claim>()),
+        ("exploration", schema::written::<Vec<ExplorationReport>>()),
+    ]);
+    #[cfg(feature = "link")]
+    schemas.extend(of_link());
+    schemas
+}
+
+/// Those of `vehicle`, `station` and `evaluate`.
+#[cfg(feature = "link")]
+fn of_link() -> Vec<(&'static str, Value)> {
     let made = [
         "evaluation-failures",
         "evaluation-readings",
@@ -31,14 +49,11 @@ pub fn all() -> Vec<(&'static str, Value)> {
         "evaluation-availability",
         "evaluation-left-out",
     ];
-    schemas.extend(made.map(|name| (name, schema::written::<Made>())));
+    let mut schemas = made.map(|name| (name, schema::written::<Made>())).to_vec();
     schemas.extend([
-        ("conform-summary", schema::written::<Summary>()),
-        ("claim", schema::written::<Claim>()),
         ("vehicle-summary", schema::written::<vehicle::summary::Summary>()),
         ("vehicle-log", schema::written::<vehicle::log::Entry>()),
         ("station-summary", schema::written::<StationSummary>()),
-        ("exploration", schema::written::<Vec<ExplorationReport>>()),
         ("evaluation-scenes", schema::written::<scenes::Scenes>()),
         ("evaluation-part", schema::written::<Part>()),
         ("evaluation-falsify", schema::written::<falsify::Falsified>()),

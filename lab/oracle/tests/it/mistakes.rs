@@ -1,7 +1,11 @@
 //! What is said of mistakes on the command line: bad files, arguments and parameters, outputs that nobody reads.
 
 use std::fs::{self, File, OpenOptions};
+use std::io::{Read, Write};
+use std::net::TcpListener;
 use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use crate::kit::{Said, first_record, folder, lines, mufasa, said, small, with_input, write};
 
@@ -240,6 +244,24 @@ fn outputs_that_nobody_reads_or_that_are_full_end_it() {
     }
 }
 
+/// An oracle says by its exit code that answers were lost, whether they were to go nowhere or nobody reads on.
+#[cfg(target_os = "linux")]
+#[test]
+fn answers_that_nobody_gets_are_an_error() {
+    let oracle = env!("CARGO_BIN_EXE_mufasa");
+    let bash = |line: &str| {
+        let command = Command::new("bash").args(["-c", line]).output().expect("bash is there");
+        Said::of(command)
+    };
+    let words = "standard output is closed";
+    bash(&format!("echo '{{}}' | {oracle} oracle >&-")).has(2, "", words);
+    bash(&format!("echo '{{}}' | {oracle} oracle >/dev/null")).has(0, "", "");
+    let some = bash(&format!(
+        "yes '{{}}' | head -9999 | {oracle} oracle | head -1; echo ${{PIPESTATUS[2]}}"
+    ));
+    assert!(some.out.ends_with("}\n141\n") && some.err.is_empty(), "{} {}", some.out, some.err);
+}
+
 /// As a full disk.
 #[cfg(unix)]
 #[test]
@@ -253,13 +275,56 @@ fn a_limit_of_file_sizes_is_told() {
     assert!(told.err.contains("large"), "{}", told.err);
 }
 
-/// A broker that is not there is tried again and again; who never had it did not what was asked.
+/// A broker that knows no user, and says so as late as RabbitMQ does. The address.
+fn refusing_broker() -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("bound").port();
+    thread::spawn(move || {
+        for mut stream in listener.incoming().flatten() {
+            let mut heard = [0; 512];
+            let mut refuse = || {
+                stream.read_exact(&mut heard[..8])?;
+                stream.write_all(b"AMQP\x03\x01\0\0")?;
+                stream.write_all(b"\0\0\0\x15\x02\x01\0\0\0S@\xc0\x08\x01\xa3\x05PLAIN")?;
+                let _ = stream.read(&mut heard)?;
+                thread::sleep(Duration::from_millis(3_200));
+                stream.write_all(b"\0\0\0\x11\x02\x01\0\0\0SD\xc0\x04\x02P\x01@")
+            };
+            // Who goes away is not refused.
+            let _: std::io::Result<()> = refuse();
+        }
+    });
+    format!("127.0.0.1:{port}")
+}
+
+/// A broker that is not there, or refuses, is tried again and again; who never had it did not what was asked.
 #[test]
 fn a_broker_that_is_never_reached_is_told() {
     let [scenario, _] = small();
-    let broker = ["--broker", "amqp://guest:guest@127.0.0.1:1"];
-    for arguments in [&["vehicle", &scenario][..], &["station", &scenario, "--seconds", "1"]] {
-        let words = "the broker at 127.0.0.1:1 cannot be reached, and is tried again";
-        mufasa(&[arguments, &broker].concat()).has(1, "", words);
+    for (place, why) in [
+        ("127.0.0.1:1".to_owned(), "Connection refused"),
+        (refusing_broker(), "the broker refuses this user or password"),
+    ] {
+        let url = format!("amqp://guest:wrong@{place}");
+        for arguments in [&["vehicle", &scenario][..], &["station", &scenario, "--seconds", "1"]] {
+            let words = format!("the broker at {place} cannot be reached, and is tried again: ");
+            let told = mufasa(&[arguments, &["--broker", &url]].concat());
+            told.has(1, "", &words);
+            assert!(told.err.contains(why), "{}", told.err);
+        }
     }
+    let tls = mufasa(&["station", &scenario, "--broker", "amqps://guest:secret@127.0.0.1:1"]);
+    tls.has(2, "", "amqps: this program has no TLS; start a TLS tunnel");
+    assert!(!tls.err.contains("secret"), "{}", tls.err);
+}
+
+#[test]
+fn a_vehicle_says_what_changes_unless_it_is_to_be_quiet() {
+    let [scenario, _] = small();
+    let told = mufasa(&["vehicle", &scenario]);
+    for words in ["the vehicle begins", "connected", "control follows the CAV's own plan"] {
+        assert_eq!(told.err.matches(words).count(), 1, "{}", told.err);
+    }
+    assert!(told.err.contains("s: AllRemote: control follows station 1"), "{}", told.err);
+    assert_eq!(mufasa(&["vehicle", &scenario, "--quiet"]).err, "");
 }
