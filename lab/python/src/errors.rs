@@ -1,5 +1,6 @@
 //! The errors of `package/mufasa/_errors.py`.
 
+use mufasa::monitor::MonitorError;
 use mufasa_model::report::InvalidInput as Problem;
 use mufasa_records::names::Words;
 use pyo3::prelude::*;
@@ -42,4 +43,23 @@ pub fn word<T: Words>(field: &str, found: &str) -> Result<T, Problem> {
             format!("must be {}, not {}", words.join(" or "), mufasa_records::shown(found)),
         )
     })
+}
+
+/// Why a monitor is refused, by the argument.
+pub fn no_monitor(error: MonitorError) -> PyErr {
+    let field = match error {
+        MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
+        MonitorError::NoPeriod => "period",
+        MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
+        MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
+        MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
+        MonitorError::TauNotAbovePeriod { .. } => "tau",
+        MonitorError::SessionsBefore { .. } => "sessions_before",
+        MonitorError::Memory { .. } => "most_stations",
+        MonitorError::Stall { .. } => "stall",
+        MonitorError::TooSlow { .. } => "check_time",
+    };
+    let message = error.to_string();
+    let message = message.trim_start_matches("settings.").trim_start_matches("requester.");
+    invalid(wrong(field, message))
 }

@@ -5,8 +5,7 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
-    Accepted, Arrival, DropReason, Message, Monitor as NativeMonitor, MonitorError, Settings,
-    Time as NativeTime,
+    Accepted, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings, Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
 use mufasa_model::input::cycle::Profile;
@@ -21,7 +20,7 @@ use crate::arguments::{
     Station, StepPs, in_domain,
 };
 use crate::decision::Decision;
-use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, wrong};
+use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, no_monitor, wrong};
 use crate::inputs::{Given, Own};
 use crate::items;
 use crate::place::Place;
@@ -393,22 +392,4 @@ fn set(groups: &[OneOfGroups]) -> Groups {
 
 fn refused(error: RequesterError) -> PyErr {
     invalid(wrong("station", error.to_string()))
-}
-
-fn no_monitor(error: MonitorError) -> PyErr {
-    let field = match error {
-        MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
-        MonitorError::NoPeriod => "period",
-        MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
-        MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
-        MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
-        MonitorError::TauNotAbovePeriod { .. } => "tau",
-        MonitorError::SessionsBefore { .. } => "sessions_before",
-        MonitorError::Memory { .. } => "most_stations",
-        MonitorError::Stall { .. } => "stall",
-        MonitorError::TooSlow { .. } => "check_time",
-    };
-    let message = error.to_string();
-    let message = message.trim_start_matches("settings.").trim_start_matches("requester.");
-    invalid(wrong(field, message))
 }
