@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 
 /// By their numbers.
-const STATUSES: [&CStr; 17] = [
+const STATUSES: [&CStr; 18] = [
     c"done",
     c"a pointer that must not be null is null",
     c"a pointer is misaligned",
@@ -21,6 +21,7 @@ const STATUSES: [&CStr; 17] = [
     c"a time too short to be in ns",
     c"max_age below l_max",
     c"tau not above the period",
+    c"a cycle may take longer than check_time",
 ];
 const DROP_REASONS: [&CStr; 9] = [
     c"not dropped",

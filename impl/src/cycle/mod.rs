@@ -51,8 +51,8 @@ pub fn check_indexed<'a>(
     check_with(cycle, &Indexes { route: Some(index), detections: &[] }, scratch)
 }
 
-/// As `check`, with what the caller keeps. The answer is the same, but where `work_limit` fails H-14 and an object
-/// that meets the CAV does, too: which of them is found first. Source:
+/// As `check`, with what the caller keeps. The answer is the same with one exception: where H-14 reaches `work_limit`
+/// and an object meets the CAV, the order of an index decides which of the two is told. Source:
 /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 pub fn check_with<'a>(
     cycle: &Cycle<'a>,

@@ -15,8 +15,8 @@ fn defaults_are_the_nearest_doubles() {
     let text = include_str!("../../../spec/3-stages.md");
     let after = |name: &str| {
         let (_, rest) = text.split_once(&format!(" {name} = ")).expect(name);
-        let end = rest.find(|c: char| !"^.".contains(c) && !c.is_ascii_digit());
-        rest[..end.expect("a number ends")].trim_end_matches('.').to_owned()
+        let end = rest.find(|c: char| !".,".contains(c) && !c.is_ascii_digit());
+        rest[..end.expect("a number ends")].trim_end_matches(['.', ',']).replace(',', "")
     };
     let (_, margin) = include_str!("../../../spec/4-arithmetic.md")
         .split_once("delta (default ")
@@ -26,7 +26,7 @@ fn defaults_are_the_nearest_doubles() {
         let written = match name.strip_suffix("_ns") {
             Some(name) => after(name) + "000000",
             None if name == "delta" => margin.to_owned(),
-            None => after(name).replace("10^10", "10000000000"),
+            None => after(name),
         };
         let [written, default] = [written, default].map(|it| it.parse::<f64>().expect(name));
         assert_eq!(written.to_bits(), default.to_bits(), "{name}");
