@@ -6,7 +6,6 @@ use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::Cycle;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
-use crate::numbers::range::larger;
 
 /// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one
 /// that is looked for in other lists (and 1 for each item of a list that is looked into), a segment of the
@@ -67,8 +66,8 @@ impl Counts {
             lists: if profile.looks_back() { 3 } else { 0 },
             cross_sections: cross_sections.min(8192),
             places: if looks_along(profile) { 256 } else { 0 },
-            disk_rows: 17,
-            cav_rows: 30,
+            disk_rows: 18,
+            cav_rows: 31,
             way_rows: 360,
         }
     }
@@ -105,19 +104,16 @@ impl Counts {
     }
 
     /// Whether no size is above that of the other.
-    pub(crate) fn is_within(&self, other: &Self) -> bool {
-        let sizes = |it: &Self| {
-            let &Self { tracks, points, detections, lists, cross_sections, places, .. } = it;
-            let &Self { disk_rows, cav_rows, way_rows, .. } = it;
-            let lists = [tracks, points, detections, lists, cross_sections, places];
-            (lists, [disk_rows, cav_rows, way_rows])
-        };
-        let ((lists, rows), (most_lists, most_rows)) = (sizes(self), sizes(other));
-        lists
-            .iter()
-            .zip(&most_lists)
-            .chain(rows.iter().zip(&most_rows))
-            .all(|(it, most)| it <= most)
+    pub(crate) const fn is_within(&self, other: &Self) -> bool {
+        self.tracks <= other.tracks
+            && self.points <= other.points
+            && self.detections <= other.detections
+            && self.lists <= other.lists
+            && self.cross_sections <= other.cross_sections
+            && self.places <= other.places
+            && self.disk_rows <= other.disk_rows
+            && self.cav_rows <= other.cav_rows
+            && self.way_rows <= other.way_rows
     }
 
     /// The list that is too long by itself for so many steps, how long it is, and how long it may be: of
@@ -261,10 +257,10 @@ fn count(items: usize) -> u32 {
     u32::try_from(items).unwrap_or(u32::MAX)
 }
 
-/// A whole number that is not less; the most where it is none.
+/// A whole number that is not less, and at most 1 more.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate")]
 fn whole(number: f64) -> u32 {
-    larger(-libm::floor(-number), 0.0) as u32
+    (number + 1.0) as u32
 }
 
 #[cfg(test)]
