@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::strategy::draw::{Draw, long_tape, longest_tape, tape};
 use mufasa_props::strategy::{
-    composition, input, monitor, requester, roads, schedule, tracks, whole,
+    composition, input, monitor, requester, roads, schedule, seen, sizes, tracks, whole,
 };
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -18,6 +18,9 @@ use mufasa_records::{Sequence, Trace};
 /// So many cases in succession are on roads that are alike, and one in so many of these groups is.
 const NEIGHBOURS: u64 = 4;
 const SUCCESSIONS: u64 = 16;
+
+/// One cycle in so many is of any size up to that of the domain.
+const LARGE: usize = 64;
 
 /// Where the cases of a campaign come from.
 #[derive(Clone, Debug)]
@@ -119,9 +122,18 @@ impl Generator {
 }
 
 /// A cycle at the threshold of a stage, of the schedule, or of what is valid; on a road that bends
-/// or closes, before the stamp of its tracks, or on one of the roads that are alike.
+/// or closes, before the stamp of its tracks, or on one of the roads that are alike; at times large.
 fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = usual(draw, profile);
+    if draw.one_in(LARGE) {
+        sizes::grow(draw, &mut cycle);
+    }
+    cycle
+}
+
+fn usual(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match draw.below(20) {
+        14 if profile == Profile::HARDENED => seen::cycle(draw, profile),
         0..=14 => whole::cycle(draw, profile),
         15 => schedule::cycle(draw, profile),
         16 | 17 => input::cycle(draw, profile),

@@ -67,6 +67,7 @@ pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
     // No other stage looks at it.
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
+    let age_ns = draw.odd_ns(age_ns);
     let (_, find) = AIMS[aim];
     let aimed = find(draw, cycle, age_ns);
     if draw.one_in(3) {
