@@ -2,7 +2,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Detection, Grid, TrajectoryPoint};
 
-use super::base::Frame;
+use super::base::{self, Frame};
 use super::draw::Draw;
 use super::track_validation;
 
@@ -14,31 +14,58 @@ const CROSS_SECTIONS: usize = 8192;
 const CELLS: usize = 1 << 20;
 const CELLS_A_SIDE: usize = 1 << 15;
 
-/// Makes one list longer, or the grid larger. What is added is harmless: far from the CAV, or between two points or
-/// cross sections.
+/// Points times cross sections: what a program of exact fractions decides in seconds.
+const POINTS_AND_SECTIONS: usize = 1 << 14;
+
+/// What can be made larger.
+#[derive(Clone, Copy)]
+enum Part {
+    Points,
+    Tracks,
+    Detections,
+    History,
+    Sections,
+    Cells,
+}
+
+/// Makes one list that is not empty longer, or the grid larger. What is added is harmless: far from the CAV, or between
+/// two points or cross sections.
 pub fn grow(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let mut parts = vec![Part::Points, Part::Sections];
+    if cycle.tracks.as_ref().is_some_and(|list| !list.items.is_empty()) {
+        parts.extend([Part::Tracks, Part::Tracks]);
+    }
+    if cycle.detections.as_ref().is_some_and(|list| !list.items.is_empty()) {
+        parts.extend([Part::Detections, Part::Detections]);
+    }
+    if !cycle.detection_history.is_empty() {
+        parts.push(Part::History);
+    }
+    if cycle.grid.is_some() {
+        parts.extend([Part::Cells, Part::Cells]);
+    }
     let ego = &cycle.ego;
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
-    match draw.below(6) {
-        0 => points(draw, cycle),
-        1 => {
-            let Some(list) = &mut cycle.tracks else { return sections(draw, cycle) };
-            let track = |index| track_validation::track(road, far(index), 1000 + index as i64);
-            surround(draw, &mut list.items, TRACKS, track);
+    match draw.pick(&parts) {
+        Part::Points => points(draw, cycle),
+        Part::Sections => sections(draw, cycle),
+        Part::Tracks => {
+            let track = |(index, id)| track_validation::track(road, far(index), id);
+            let tracks: Vec<_> = (0..TRACKS).zip(1000..).map(track).collect();
+            let list = cycle.tracks.iter_mut();
+            list.for_each(|list| surround(draw, &mut list.items, &tracks));
         }
-        2 => {
-            let Some(list) = &mut cycle.detections else { return points(draw, cycle) };
-            surround(draw, &mut list.items, DETECTIONS, |index| seen(road, index));
+        Part::Detections => {
+            let list = cycle.detections.iter_mut();
+            list.for_each(|list| surround(draw, &mut list.items, &detections(road)));
         }
-        3 if !cycle.detection_history.is_empty() => {
+        Part::History => {
             let list = draw.below(cycle.detection_history.len());
-            let items = &mut cycle.detection_history[list].items;
-            surround(draw, items, DETECTIONS, |index| seen(road, index));
+            surround(draw, &mut cycle.detection_history[list].items, &detections(road));
         }
-        3 | 4 => sections(draw, cycle),
-        _ => {
-            let Some(grid) = &mut cycle.grid else { return points(draw, cycle) };
-            cells(draw, grid);
+        Part::Cells => {
+            let grid = cycle.grid.iter_mut();
+            grid.for_each(|grid| cells(draw, grid));
         }
     }
 }
@@ -74,16 +101,16 @@ fn far(index: usize) -> (f64, f64) {
     (-150.0 - (index % 32) as f64, 30.0 + (index / 32) as f64)
 }
 
-fn seen(road: Frame, index: usize) -> Detection {
-    track_validation::detection(road, far(index))
+fn detections(road: Frame) -> Vec<Detection> {
+    (0..DETECTIONS).map(|index| track_validation::detection(road, far(index))).collect()
 }
 
-/// What is there comes to stand in succession somewhere among so many.
-fn surround<T>(draw: &mut Draw<'_>, items: &mut Vec<T>, most: usize, filler: impl Fn(usize) -> T) {
-    let more = size(draw, most).saturating_sub(items.len());
-    let before = place(draw, more);
-    items.splice(..0, (0..before).map(&filler));
-    items.extend((before..more).map(filler));
+/// What is there comes to stand in succession somewhere among up to so many others in all.
+fn surround<T: Clone>(draw: &mut Draw<'_>, items: &mut Vec<T>, others: &[T]) {
+    let more = size(draw, others.len()).saturating_sub(items.len());
+    let (before, after) = others[..more].split_at(place(draw, more));
+    items.splice(..0, before.iter().cloned());
+    items.extend_from_slice(after);
 }
 
 /// Divides a step of the trajectory, or lets the CAV stay at its only point.
@@ -99,13 +126,13 @@ fn points(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         ),
         [from, to, ..] => (from.clone(), to.clone()),
     };
-    let Some(dt_ns) = to.t_ns.checked_sub(from.t_ns).filter(|dt| (2_000..1 << 40).contains(dt))
+    let Some(dt_ns) = to.t_ns.checked_sub(from.t_ns).filter(|dt| (1_000_000..1 << 40).contains(dt))
     else {
         return;
     };
     let between = |index: usize| {
         let part = index as f64 / (more + 1) as f64;
-        let t_ns = from.t_ns + dt_ns * index as i64 / (more + 1) as i64;
+        let t_ns = from.t_ns + base::to_ns(part * base::seconds(dt_ns));
         let (x, y) = (from.x + part * (to.x - from.x), from.y + part * (to.y - from.y));
         TrajectoryPoint { t_ns, x, y, ..from }
     };
@@ -114,8 +141,10 @@ fn points(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 
 /// Divides the road between two cross sections.
 fn sections(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let points = cycle.trajectory.as_ref().map_or(0, |list| list.points.len());
+    let most = CROSS_SECTIONS.min(POINTS_AND_SECTIONS / points.max(1)).max(2);
     let sections = &mut cycle.route.cross_sections;
-    let more = size(draw, CROSS_SECTIONS).saturating_sub(sections.len());
+    let more = size(draw, most).saturating_sub(sections.len());
     let at = place(draw, sections.len().saturating_sub(2));
     let [from, to] = match &sections[at.min(sections.len())..] {
         [from, to, ..] => [from.clone(), to.clone()],
@@ -162,5 +191,6 @@ fn cells(draw: &mut Draw<'_>, grid: &mut Grid) {
     let Grid { x, y, cos, sin, resolution, .. } = *grid;
     let corner = Frame { x, y, cos, sin };
     (grid.x, grid.y) = corner.at(-resolution * left as f64, -resolution * below as f64);
-    (grid.width, grid.height) = (columns as i64, rows as i64);
+    let sides = [columns, rows].map(|side| i64::try_from(side).unwrap_or(1));
+    (grid.width, grid.height) = sides.into();
 }

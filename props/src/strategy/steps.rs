@@ -25,14 +25,22 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let length = cycle.ego.length;
     let mut dt_ns = draw.odd_ns(200_000_000);
     let (mut along, mut aside, mut turned) = (0.1, 0.0, (1.0, 0.0));
-    match draw.below(7) {
+    match draw.below(8) {
         0 => dt_ns = draw.near_ns(cycle.parameters.step_max_ns),
         1 => along = draw.near(length),
         2 => {
             cycle.parameters.v_max = draw.pick(&[4.0, 2.5, 5.0]);
             along = draw.near(cycle.parameters.v_max * seconds(dt_ns));
         }
-        3 => along = -draw.near(0.1 * seconds(dt_ns)),
+        3 | 7 => {
+            // Aside, so that the first heading or the second decides.
+            let turn: f64 = draw.pick(&[0.0, 0.1, -0.1]);
+            turned = (turn.cos(), turn.sin());
+            let limit = draw.near(0.1 * seconds(dt_ns));
+            let is_first = draw.one_in(2);
+            aside = turn * if is_first { 1.2 } else { -0.4 };
+            along = if is_first { -limit } else { (-limit - aside * turned.1) / turned.0 };
+        }
         4 => {
             // Only the reference of a long vehicle goes so far aside: half of it ahead of the
             // rear axle, in the sharpest turn.

@@ -19,8 +19,9 @@ use mufasa_records::{Sequence, Trace};
 const NEIGHBOURS: u64 = 4;
 const SUCCESSIONS: u64 = 16;
 
-/// One cycle in so many is of any size up to that of the domain.
-const LARGE: usize = 64;
+/// One cycle in so many is of any size up to that of the domain: of the paper profile, and of the hardened one, whose
+/// exact model takes longer.
+const LARGE: [usize; 2] = [48, 256];
 
 /// Where the cases of a campaign come from.
 #[derive(Clone, Debug)]
@@ -125,7 +126,8 @@ impl Generator {
 /// or closes, before the stamp of its tracks, or on one of the roads that are alike; at times large.
 fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = usual(draw, profile);
-    if draw.one_in(LARGE) {
+    let [paper, hardened] = LARGE;
+    if draw.one_in(if profile == Profile::PAPER { paper } else { hardened }) {
         sizes::grow(draw, &mut cycle);
     }
     cycle
@@ -232,6 +234,57 @@ mod tests {
             let count = (0..1000).filter(begins_before).count();
             assert!(count > 3, "{profile:?}: {count}");
         }
+    }
+
+    /// A change that a program makes without saying so, and how many of the first cycles show it.
+    fn shown(profile: Profile, change: impl Fn(&mut Cycle) -> bool) -> usize {
+        let generator = Generator { seed: 0, profile, kinds: vec![Kind::Cycle] };
+        let is_shown = |case: &u64| {
+            let Question::Cycle(cycle) = generator.question(*case) else { return false };
+            let mut changed = cycle.clone();
+            let verdict = |cycle| check(cycle, Reading::Exact).map(|it| it.failed_stage);
+            change(&mut changed) && verdict(&changed) != verdict(&cycle)
+        };
+        (0..10_000).filter(is_shown).count()
+    }
+
+    #[test]
+    fn a_time_of_prediction_in_whole_ms_or_us_changes_verdicts() {
+        for unit_ns in [1_000_000, 1_000] {
+            let count = shown(Profile::PAPER, |cycle| {
+                let (Some(tracks), Some(trajectory)) = (&mut cycle.tracks, &cycle.trajectory)
+                else {
+                    return false;
+                };
+                let Some(first) = trajectory.points.first() else { return false };
+                let t_ns = i128::from(first.t_ns) - i128::from(tracks.stamp_ns);
+                tracks.stamp_ns += i64::try_from(t_ns % unit_ns).unwrap_or(0);
+                true
+            });
+            assert!(count > 10, "{unit_ns} ns: {count}");
+        }
+    }
+
+    #[test]
+    fn what_decides_lies_behind_the_first_hundred_too() {
+        let tracks = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.tracks else { return false };
+            list.items.len() > 100 && list.items.drain(100..).len() > 0
+        });
+        let detections = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.detections else { return false };
+            list.items.len() > 100 && list.items.drain(100..).len() > 0
+        });
+        let points = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.trajectory else { return false };
+            list.points.len() > 200 && list.points.drain(200..).len() > 0
+        });
+        let sections = shown(Profile::PAPER, |cycle| {
+            let sections = &mut cycle.route.cross_sections;
+            sections.len() > 1000 && sections.drain(1000..).len() > 0
+        });
+        let all = [tracks, detections, points, sections];
+        assert!(all.iter().all(|count| *count > 0), "{all:?}");
     }
 
     #[test]

@@ -96,6 +96,9 @@ fn shaped(
 fn body(draw: &mut Draw<'_>, cycle: &Cycle) -> Body {
     let (length, width) =
         draw.pick(&[(4.5, 1.8), (0.6, 0.6), (0.01, 0.01), (12.0, 2.5), (1.0, 3.0)]);
+    // Between places that are too far apart for a short CAV nothing larger fits.
+    let is_small = cycle.ego.length < 0.25 && draw.one_in(2);
+    let (length, width) = if is_small { (0.01, 0.01) } else { (length, width) };
     let road = shape::frame(cycle);
     let turned = draw.direction();
     let (cos, sin) = unit(road.turn(if draw.one_in(2) { turned } else { (1.0, 0.0) }));
