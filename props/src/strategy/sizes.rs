@@ -19,34 +19,67 @@ const POINTS_AND_SECTIONS: usize = 1 << 14;
 
 /// What can be made larger.
 #[derive(Clone, Copy)]
-enum Part {
+pub enum Part {
+    /// Points of the trajectory.
     Points,
+    /// Tracks.
     Tracks,
+    /// Detections of now.
     Detections,
+    /// Detections of a list of the history.
     History,
+    /// Cross sections.
     Sections,
+    /// Cells.
     Cells,
 }
 
-/// Makes one list that is not empty longer, or the grid larger. What is added is harmless: far from the CAV, or between
-/// two points or cross sections.
+impl Part {
+    /// Each of them.
+    pub const ALL: [Self; 6] =
+        [Self::Points, Self::Tracks, Self::Detections, Self::History, Self::Sections, Self::Cells];
+
+    /// Whether the cycle has something of it, which can decide.
+    fn is_in(self, cycle: &Cycle) -> bool {
+        match self {
+            Self::Points | Self::Sections => true,
+            Self::Tracks => cycle.tracks.as_ref().is_some_and(|list| !list.items.is_empty()),
+            Self::Detections => {
+                cycle.detections.as_ref().is_some_and(|list| !list.items.is_empty())
+            }
+            Self::History => !cycle.detection_history.is_empty(),
+            Self::Cells => cycle.grid.is_some(),
+        }
+    }
+
+    /// Whether the cycle can have as much of it as the domain allows.
+    pub fn fits(self, cycle: &Cycle) -> bool {
+        let points = cycle.trajectory.as_ref().map_or(0, |list| list.points.len());
+        let is_little = CROSS_SECTIONS * points <= POINTS_AND_SECTIONS;
+        self.is_in(cycle) && (is_little || !matches!(self, Self::Sections))
+    }
+}
+
+/// Makes one list that is not empty longer, or the grid larger.
 pub fn grow(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    let mut parts = vec![Part::Points, Part::Sections];
-    if cycle.tracks.as_ref().is_some_and(|list| !list.items.is_empty()) {
-        parts.extend([Part::Tracks, Part::Tracks]);
-    }
-    if cycle.detections.as_ref().is_some_and(|list| !list.items.is_empty()) {
-        parts.extend([Part::Detections, Part::Detections]);
-    }
-    if !cycle.detection_history.is_empty() {
-        parts.push(Part::History);
-    }
-    if cycle.grid.is_some() {
-        parts.extend([Part::Cells, Part::Cells]);
-    }
+    // The index of a track or detection, or a cell, decides more often.
+    let twice = [Part::Tracks, Part::Detections, Part::Cells];
+    let mut parts: Vec<Part> = Part::ALL.into_iter().chain(twice).collect();
+    parts.retain(|part| part.is_in(cycle));
+    let part = draw.pick(&parts);
+    enlarge(draw, cycle, part);
+}
+
+/// Makes it as large as it can be, with what was there behind the rest.
+pub fn largest(cycle: &mut Cycle, part: Part) {
+    enlarge(&mut Draw::new(&[]), cycle, part);
+}
+
+/// What is added is harmless: far from the CAV, or between two points or cross sections.
+fn enlarge(draw: &mut Draw<'_>, cycle: &mut Cycle, part: Part) {
     let ego = &cycle.ego;
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
-    match draw.pick(&parts) {
+    match part {
         Part::Points => points(draw, cycle),
         Part::Sections => sections(draw, cycle),
         Part::Tracks => {

@@ -23,6 +23,9 @@ const SUCCESSIONS: u64 = 16;
 /// exact model takes longer.
 const LARGE: [usize; 2] = [48, 256];
 
+/// So many cycles are looked through for one that can be as large as there may be.
+const TRIES: usize = 1000;
+
 /// Where the cases of a campaign come from.
 #[derive(Clone, Debug)]
 pub struct Generator {
@@ -35,9 +38,23 @@ pub struct Generator {
 }
 
 impl Generator {
-    /// Case number `case`.
+    /// Case number `case`. The first cycles are the largest: as many points, tracks and so on as there may be.
     pub fn question(&self, case: u64) -> Question {
-        self.read(self.kind(case), &self.tape(case))
+        let question = self.read(self.kind(case), &self.tape(case));
+        let part = usize::try_from(case).ok().and_then(|case| sizes::Part::ALL.get(case));
+        match (question, part) {
+            (Question::Cycle(_), Some(part)) => self.largest(case, *part),
+            (question, _) => question,
+        }
+    }
+
+    /// The first cycle from this case on that can have so much.
+    fn largest(&self, case: u64, part: sizes::Part) -> Question {
+        let cycles = (case..).map(|case| usual(&mut Draw::new(&self.tape(case)), self.profile));
+        let found = cycles.take(TRIES).find(|cycle| part.fits(cycle));
+        let mut cycle = found.unwrap_or_else(|| usual(&mut Draw::new(&[]), self.profile));
+        sizes::largest(&mut cycle, part);
+        Question::Cycle(Box::new(cycle))
     }
 
     /// The kind of a case: of the usual four, eight of eleven are cycles.
@@ -174,6 +191,7 @@ pub fn mix(value: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use mufasa_model::cycle::check;
+    use mufasa_model::input::cycle::DetectionList;
     use mufasa_model::report::{Outcome, Reading};
 
     use super::*;
@@ -233,6 +251,29 @@ mod tests {
             };
             let count = (0..1000).filter(begins_before).count();
             assert!(count > 3, "{profile:?}: {count}");
+        }
+    }
+
+    #[test]
+    fn the_first_cycles_are_as_large_as_the_domain_allows_and_decided() {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
+            let generator = Generator { seed: 3, profile, kinds: vec![Kind::Cycle] };
+            let cycles = (0..6).map(|case| match generator.question(case) {
+                Question::Cycle(cycle) => cycle,
+                other => panic!("{other:?}"),
+            });
+            let [points, tracks, detections, history, sections, cells]: [Box<Cycle>; 6] =
+                cycles.collect::<Vec<_>>().try_into().expect("six");
+            let count = |list: &Option<DetectionList>| list.as_ref().map_or(0, |it| it.items.len());
+            assert_eq!(points.trajectory.as_ref().map_or(0, |it| it.points.len()), 1024);
+            assert_eq!(tracks.tracks.as_ref().map_or(0, |it| it.items.len()), 1024);
+            assert_eq!(count(&detections.detections), 2048);
+            assert!(history.detection_history.iter().any(|it| it.items.len() == 2048));
+            assert_eq!(sections.route.cross_sections.len(), 8192);
+            assert!(cells.grid.is_some_and(|grid| grid.width * grid.height > 1 << 19));
+            for cycle in [points, tracks, detections, history, sections] {
+                assert!(check(&cycle, Reading::Exact).is_ok(), "{cycle:?}");
+            }
         }
     }
 
