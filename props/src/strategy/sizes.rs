@@ -62,9 +62,9 @@ impl Part {
 
 /// Makes one list that is not empty longer, or the grid larger.
 pub fn grow(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    // The index of a track or detection, or a cell, decides more often.
-    let twice = [Part::Tracks, Part::Detections, Part::Cells];
-    let mut parts: Vec<Part> = Part::ALL.into_iter().chain(twice).collect();
+    // Of many tracks or detections one alone decides.
+    let again = [Part::Tracks, Part::Tracks, Part::Detections, Part::Cells];
+    let mut parts: Vec<Part> = Part::ALL.into_iter().chain(again).collect();
     parts.retain(|part| part.is_in(cycle));
     let part = draw.pick(&parts);
     enlarge(draw, cycle, part);

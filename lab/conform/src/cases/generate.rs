@@ -21,7 +21,7 @@ const SUCCESSIONS: u64 = 16;
 
 /// One cycle in so many is of any size up to that of the domain: of the paper profile, and of the hardened one, whose
 /// exact model takes longer.
-const LARGE: [usize; 2] = [48, 256];
+const LARGE: [usize; 2] = [32, 256];
 
 /// So many cycles are looked through for one that can be as large as there may be.
 const TRIES: usize = 1000;
