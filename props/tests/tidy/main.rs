@@ -3,7 +3,11 @@
 //! breaks it. Exceptions stand here, each with its reason; one that is not needed any more fails.
 
 mod circles;
+mod evidence;
 mod length;
+#[expect(dead_code, reason = "of it the names of items are asked for alone")]
+#[path = "../tree/lines.rs"]
+mod lines;
 mod links;
 mod loops;
 mod must;
@@ -122,6 +126,12 @@ fn no_link_leads_nowhere() {
 #[test]
 fn every_file_that_is_named_exists() {
     judge(&links::named(&Tree::here()), ELSEWHERE);
+}
+
+/// An assessor looks it up.
+#[test]
+fn evidence_that_is_named_exists() {
+    judge(&evidence::missing(&Tree::here()), &[]);
 }
 
 /// Comments of Rust name headings of the spec.
