@@ -99,6 +99,8 @@ enum MufasaStatus
   MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 16,
   // A cycle with lists as long as they may become could take longer than check_time.
   MUFASA_STATUS_TOO_SLOW = 17,
+  // A setting that no road vehicle has, and that is not named in `meant`.
+  MUFASA_STATUS_UNUSUAL = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -910,6 +912,8 @@ typedef struct MufasaMonitorSettings {
   int64_t check_time_ns;
   // What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
   uint64_t step_ps;
+  // Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
+  uint32_t meant;
   // Stations that ever offer something, at least 1.
   size_t most_stations;
   // Tracks of a list, at least 1.
@@ -1147,6 +1151,12 @@ struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
 // Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
 uint64_t mufasa_monitor_calibrate(void);
+
+// What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.
+//
+// # Safety
+// `field` is null or points to a text that ends with 0.
+MUFASA_MUST_USE uint32_t mufasa_monitor_meant(const char *field);
 
 // Bytes of memory for a monitor with these settings; SIZE_MAX when they cannot be read.
 //

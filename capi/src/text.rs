@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 
 /// By their numbers.
-const STATUSES: [&CStr; 18] = [
+const STATUSES: [&CStr; 19] = [
     c"done",
     c"a pointer that must not be null is null",
     c"a pointer is misaligned",
@@ -22,6 +22,7 @@ const STATUSES: [&CStr; 18] = [
     c"max_age below l_max",
     c"tau not above the period",
     c"a cycle may take longer than check_time",
+    c"a setting that no road vehicle has",
 ];
 const DROP_REASONS: [&CStr; 9] = [
     c"not dropped",

@@ -290,6 +290,14 @@ static void a_status_of_the_settings_has_a_field(void) {
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_TOO_SLOW && monitor == NULL);
   EXPECT(mufasa_monitor_calibrate() > 10000);
   it = settings();
+  it.stages.a_b = 80;
+  is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_UNUSUAL && monitor == NULL);
+  it.meant = mufasa_monitor_meant("stages.tau") + mufasa_monitor_meant("no such") + mufasa_monitor_meant(NULL);
+  is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  it.meant += mufasa_monitor_meant("stages.a_b");
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it = settings();
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);

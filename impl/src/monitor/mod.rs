@@ -28,6 +28,7 @@ pub(crate) mod served;
 mod settings;
 pub(crate) mod stall;
 mod time;
+mod unusual;
 
 pub use self::decision::{Brake, Decision, Verified};
 pub use self::element::{Accepted, Arrival, DropReason, Message};
@@ -36,6 +37,7 @@ pub use self::memory::Memory;
 pub use self::settings::{MonitorError, Settings};
 pub use self::stall::Stall;
 pub use self::time::{Time, TimeError};
+pub use self::unusual::Unusual;
 
 use self::history::History;
 use self::memory::Lengths;

@@ -1,6 +1,6 @@
 //! The errors of `package/mufasa/_errors.py`.
 
-use mufasa::monitor::MonitorError;
+use mufasa::monitor::{MonitorError, Unusual};
 use mufasa_model::report::InvalidInput as Problem;
 use mufasa_records::names::Words;
 use pyo3::prelude::*;
@@ -58,6 +58,7 @@ pub fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::Memory { .. } => "most_stations",
         MonitorError::Stall { .. } => "stall",
         MonitorError::TooSlow { .. } => "check_time",
+        MonitorError::Unusual(Unusual { field, .. }) => field.rsplit('.').next().unwrap_or(field),
     };
     let message = error.to_string();
     let message = message.trim_start_matches("settings.").trim_start_matches("requester.");

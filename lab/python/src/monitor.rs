@@ -36,7 +36,8 @@ const MOST_STATIONS: usize = 65_536;
 /// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of
 /// single defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by
 /// default, has to be above the period. ``sessions_before``: at least the last session of earlier lives, so
-/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536.
+/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``meant``: names of
+/// parameters that are meant although no road vehicle has such a value.
 ///
 /// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when
 /// the one before gave actions that nobody has looked at, and ends what was verified before. An event that
@@ -59,8 +60,8 @@ impl Monitor {
     #[pyo3(signature = (
         period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
         sessions_before = SessionsBefore(0), most_stations = MostStations(64), check_time = None,
-        step_ps = StepPs(750)
-    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750)")]
+        step_ps = StepPs(750), meant = Vec::new()
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750, meant=())")]
     fn new(
         period: Period,
         profile: OneProfile,
@@ -69,11 +70,13 @@ impl Monitor {
         most_stations: MostStations,
         check_time: Option<CheckTime>,
         step_ps: StepPs,
+        meant: Vec<String>,
     ) -> PyResult<Self> {
         let sessions_before = sessions_before.0;
         let mut settings = Settings { sessions_before, ..Settings::new(period.0) };
         settings.check_time = check_time.map_or(Duration::MAX, |it| it.0);
         settings.step_ps = step_ps.0;
+        settings = meant.iter().fold(settings, |it, field| it.meaning(field));
         settings.profile = bridge::profile_to_impl(profile.0);
         if let Some(parameters) = parameters {
             let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));

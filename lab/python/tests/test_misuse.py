@@ -349,6 +349,7 @@ def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
         ({"check_time": timedelta(hours=1), "step_ps": 2**64 - 1}, "check_time"),
         ({"check_time": timedelta(milliseconds=-1)}, "check_time"),
         ({"profile": "lax"}, "profile"),
+        ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.25, "a_b": 80}}, "a_b"),
     ],
 )
 def test_settings_that_no_monitor_can_keep(settings: dict[str, Any], field: str) -> None:

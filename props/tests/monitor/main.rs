@@ -21,3 +21,4 @@ mod reached;
 mod restart;
 mod stack;
 mod starved;
+mod unusual;
