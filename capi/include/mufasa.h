@@ -378,6 +378,38 @@ typedef uint32_t MufasaDropReason;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// What the program around the monitor seems to get wrong, each told once (`spec/4-arithmetic.md#advice`). No verdict
+// depends on it: write it to a log that somebody reads.
+enum MufasaAdvice
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing new.
+  MUFASA_ADVICE_NONE = 0,
+  // Cycles come in another period than period_ns.
+  MUFASA_ADVICE_PERIOD = 1,
+  // Detections are given, and none was current.
+  MUFASA_ADVICE_DETECTIONS_NOT_CURRENT = 2,
+  // A lead is given, and none was current: for the stages nobody is ahead.
+  MUFASA_ADVICE_LEAD_NOT_CURRENT = 3,
+  // A grid is given, and none was current.
+  MUFASA_ADVICE_GRID_NOT_CURRENT = 4,
+  // The gap does not change as the speeds of lead and CAV say: km/h, or a speed relative to the CAV.
+  MUFASA_ADVICE_LEAD_SPEED = 5,
+  // The gap is longer than the way to the detection ahead: between centres, or from the reference point.
+  MUFASA_ADVICE_GAP_TOO_LONG = 6,
+  // It is shorter: detections that are too small, or a center_offset that is too small.
+  MUFASA_ADVICE_GAP_TOO_SHORT = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaAdvice MufasaAdvice;
+#else
+typedef uint32_t MufasaAdvice;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
 enum MufasaProfile
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -1003,6 +1035,8 @@ typedef struct MufasaDecision {
   // Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
   // it in each period has started them even when he lost an action.
   uint32_t local_services;
+  // What this program seems to get wrong, if there is something new; `mufasa_advice_text` says it in words.
+  MufasaAdvice advice;
 } MufasaDecision;
 
 #ifdef __cplusplus
@@ -1278,6 +1312,9 @@ MUFASA_MUST_USE const char *mufasa_drop_reason_text(uint32_t reason);
 
 // A MufasaActionType in words.
 MUFASA_MUST_USE const char *mufasa_action_text(uint32_t action_type);
+
+// A MufasaAdvice in words.
+MUFASA_MUST_USE const char *mufasa_advice_text(uint32_t advice);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -44,6 +44,17 @@ const ACTIONS: [&CStr; 5] = [
     c"drop the element",
 ];
 
+const ADVICE: [&CStr; 8] = [
+    c"no advice",
+    c"cycles come in another period than period_ns",
+    c"no detections are current; is their stamp right?",
+    c"no lead is current, as if nobody were ahead; is its stamp right?",
+    c"no grid is current; is its stamp right?",
+    c"the gap does not change as the speeds say; are they in m/s over ground?",
+    c"the gap is longer than the way to the detection ahead; is it between bumpers?",
+    c"the gap is shorter than the way to the detection ahead; are sizes and center_offset right?",
+];
+
 fn text(of: &[&'static CStr], number: u32) -> *const c_char {
     let known = usize::try_from(number).ok().and_then(|index| of.get(index).copied());
     known.unwrap_or(c"unknown").as_ptr()
@@ -68,4 +79,11 @@ pub extern "C" fn mufasa_drop_reason_text(reason: u32) -> *const c_char {
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_action_text(action_type: u32) -> *const c_char {
     text(&ACTIONS, action_type.wrapping_sub(1))
+}
+
+/// A MufasaAdvice in words.
+#[must_use]
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_advice_text(advice: u32) -> *const c_char {
+    text(&ADVICE, advice)
 }

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
-    Accepted, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings, Time as NativeTime,
+    Accepted, Advice, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings,
+    Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
 use mufasa_model::input::cycle::Profile;
@@ -36,8 +37,7 @@ const MOST_STATIONS: usize = 65_536;
 /// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of
 /// single defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by
 /// default, has to be above the period. ``sessions_before``: at least the last session of earlier lives, so
-/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``meant``: names of
-/// parameters that are meant although no road vehicle has such a value.
+/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536.
 ///
 /// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when
 /// the one before gave actions that nobody has looked at, and ends what was verified before. An event that
@@ -72,11 +72,10 @@ impl Monitor {
         step_ps: StepPs,
         meant: Vec<String>,
     ) -> PyResult<Self> {
-        let sessions_before = sessions_before.0;
-        let mut settings = Settings { sessions_before, ..Settings::new(period.0) };
+        let settings = Settings { sessions_before: sessions_before.0, ..Settings::new(period.0) };
+        let mut settings = meant.iter().fold(settings, |it, field| it.meaning(field));
         settings.check_time = check_time.map_or(Duration::MAX, |it| it.0);
         settings.step_ps = step_ps.0;
-        settings = meant.iter().fold(settings, |it, field| it.meaning(field));
         settings.profile = bridge::profile_to_impl(profile.0);
         if let Some(parameters) = parameters {
             let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
@@ -88,10 +87,8 @@ impl Monitor {
             settings.requester = bridge::parameters_to_impl(&requester);
         }
         if most_stations.0 > MOST_STATIONS {
-            return Err(invalid(wrong(
-                "most_stations",
-                format!("must be at most {MOST_STATIONS}"),
-            )));
+            let message = format!("must be at most {MOST_STATIONS}");
+            return Err(invalid(wrong("most_stations", message)));
         }
         let place = Place::with(&settings, most_stations.0).map_err(no_monitor)?;
         let (tracks, trajectory, to_do) = (None, None, None);
@@ -177,6 +174,11 @@ impl Monitor {
     /// Time passes: to be called in each period, before its cycle.
     fn tick(&mut self, py: Python<'_>, now: Time) -> PyResult<Py<Actions>> {
         self.event(py, now, |monitor, now| Ok(monitor.tick(now)))
+    }
+
+    /// What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``); else ``None``.
+    fn advice(&mut self) -> Option<&'static str> {
+        self.place.with_dependent_mut(|_, monitor| monitor.advice()).map(Advice::message)
     }
 
     /// Tracks (``Track``) of a station arrive; they are copied. Used are those of the running session, in

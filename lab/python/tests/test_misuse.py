@@ -478,3 +478,12 @@ def test_ticks_that_are_forgotten_are_told(scene: Scene) -> None:
     decision = monitor.cycle(at(20), Scene.ego, detections=Detections(at(20), Scene.parked))
     assert decision.error is not None and decision.error.field == "tick"
     assert monitor.configuration == "Local"
+
+
+def test_a_speed_that_the_gap_contradicts_is_told_once(scene: Scene) -> None:
+    monitor, told = scene.monitor(), []
+    for ms in range(0, 5000, 100):
+        lead = mufasa.Lead(at(ms), Gap.between_bumpers(30.0), 18.0)
+        scene.decide(monitor, ms, lead=lead)
+        told.append(monitor.advice())
+    assert len([it for it in told if it and "m/s" in it]) == 1

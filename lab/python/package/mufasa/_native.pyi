@@ -259,6 +259,9 @@ class Monitor:
     def tick(self, now: Time) -> Actions:
         """Time passes: to be called in each period, before its cycle."""
 
+    def advice(self) -> str | None:
+        """What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``)."""
+
     def tracks(
         self,
         now: Time,
