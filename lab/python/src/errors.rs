@@ -50,7 +50,9 @@ pub fn no_monitor(error: MonitorError) -> PyErr {
     let field = match error {
         MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
         MonitorError::NoPeriod => "period",
-        MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
+        MonitorError::TimeTooShort { field, .. } | MonitorError::Unusual(Unusual { field, .. }) => {
+            field.rsplit('.').next().unwrap_or(field)
+        }
         MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
         MonitorError::TauNotAbovePeriod { .. } => "tau",
@@ -58,7 +60,6 @@ pub fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::Memory { .. } => "most_stations",
         MonitorError::Stall { .. } => "stall",
         MonitorError::TooSlow { .. } => "check_time",
-        MonitorError::Unusual(Unusual { field, .. }) => field.rsplit('.').next().unwrap_or(field),
     };
     let message = error.to_string();
     let message = message.trim_start_matches("settings.").trim_start_matches("requester.");

@@ -53,7 +53,7 @@ fn drive(slip: fn(&mut Given)) -> Vec<Advice> {
     told((0..80).map(|i| 100 * i * MS), slip)
 }
 
-/// IMPL-18: nothing is said of a drive that is as it should be, with jitter, a lost cycle, a pause, and a lead that changes.
+/// IMPL-16: nothing is said of a drive that is as it should be, with jitter, a lost cycle, a pause, and a lead that changes.
 #[test]
 fn a_clean_drive_gets_no_advice() {
     assert_eq!(drive(|_| {}), []);
@@ -102,7 +102,7 @@ fn what_is_never_current_is_told_once() {
     assert_eq!(drive(|it| it.ages_ns[2] = 5000 * MS), [Advice::GridNotCurrent]);
 }
 
-/// IMPL-16, IMPL-17: km/h, and a speed relative to the CAV.
+/// IMPL-16, IMPL-17, IMPL-18: km/h, and a speed relative to the CAV; each cycle stays safe.
 #[test]
 fn a_speed_of_the_lead_that_its_gap_contradicts_is_told_once() {
     assert_eq!(drive(|it| it.lead_speed *= 3.6), [Advice::LeadSpeed]);
