@@ -148,7 +148,7 @@ def test_what_was_handed_in_is_out_of_reach(scene: Scene) -> None:
     points[0] = points[0]._replace(x=40.0)
     shown = {name for name in dir(monitor) if not name.startswith("_")}
     calls = "set_route offer withdraw lost confirm reject area tick tracks trajectory cycle own"
-    assert shown == {*calls.split(), *"configuration source session_of sessions hold_until".split()}
+    assert shown == {*calls.split(), *"configuration source session_of sessions hold_until advice".split()}
     decision = scene.decide(monitor, 10)
     assert decision.tracks is not None and decision.tracks.items == scene.tracks
     assert decision.trajectory is not None and decision.trajectory.points == scene.plan(10)
