@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::inputs::Inputs;
 use crate::input::cycle::{Detection, Ego, Lead};
-use crate::numbers::time::{elapsed_ns, seconds};
+use crate::numbers::time::elapsed_ns;
 use crate::stages::order::is_current;
 
 /// What contradicts itself, told once. Source: `spec/4-arithmetic.md#advice`.
@@ -68,41 +68,42 @@ impl fmt::Display for Advice {
 
 /// Cycles in a row that have to agree.
 const CYCLES: u8 = 16;
-/// Of as many, those that have to be off the period in one direction.
-const OFF: u8 = 12;
-/// How long the gap is looked at, s; so many such times in a row that have to agree.
-const WINDOW: f64 = 1.0;
+/// By how many the intervals off the period have to prevail, and what one that is not takes from them.
+const OFF: i8 = 12;
+const BACK: i8 = 3;
+/// How long the gap is looked at, and the longest time between two cycles with a lead, in units of time.
+const WINDOW: u16 = 15_259;
+const PAUSE: u16 = 7_630;
+/// So many such times in a row have to agree.
 const WINDOWS: i8 = 3;
 /// Slower than that, lead and detection may be two things that stand, m/s.
 const MOVES: f64 = 2.0;
+/// 2^16 ns in s, the unit of time.
+const UNIT: f32 = 65.536e-6;
 
-/// What was seen in the last cycles.
+/// What was seen in the last cycles, in few bytes, as a monitor is small.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watch {
+    /// The last cycle, in units of time, of which the upper ones are left out.
+    last: u32,
+    /// Since when a lead is followed, in units of time; 0: none is.
+    time: u16,
+    /// By how much gap and detection differed first, mm, and in how many cycles in a row.
+    first: i16,
+    alike: u8,
+    /// The gap as the speeds make it, m.
+    gap: f32,
+    /// What the faster one drove meanwhile, m.
+    way: f32,
+    /// Windows in a row in which the gap grew more (or less) than the speeds say.
+    differ: i8,
+    /// By how many the intervals prevail that are too long (or too short).
+    off: i8,
+    /// Cycles in a row with something that was not current.
+    not_current: [u8; 3],
     /// One bit for each that was found, and for each that was told.
     found: u8,
     told: u8,
-    last_ns: Option<i64>,
-    /// Intervals, those that were too long, and those that were too short.
-    intervals: [u8; 3],
-    /// Cycles in a row with something that was not current.
-    not_current: [u8; 3],
-    window: Option<Window>,
-    /// Windows in a row in which the gap grew more (or less) than the speeds say.
-    differ: i8,
-    /// By how much gap and detection differ, and in how many cycles in a row.
-    beside: (f64, u8),
-}
-
-/// A time in which one lead was followed.
-#[derive(Clone, Copy, Debug)]
-struct Window {
-    gap: f64,
-    last: Lead,
-    speed: f64,
-    time: f64,
-    /// What the lead drove, and the CAV, m.
-    ways: [f64; 2],
 }
 
 impl Watch {
@@ -117,7 +118,7 @@ impl Watch {
     /// A cycle whose local input is valid.
     pub(super) fn cycle(&mut self, inputs: &Inputs<'_>, period_ns: i64, max_age_ns: i64) {
         let now_ns = inputs.now.as_nanoseconds();
-        self.interval(now_ns, period_ns);
+        let units = self.interval(now_ns, period_ns);
         let (detections, lead) = (inputs.detections, inputs.lead);
         let stamps = [
             detections.map(|it| it.stamp_ns),
@@ -134,7 +135,7 @@ impl Watch {
             }
         }
         let lead = lead.filter(|it| current(it.stamp_ns) && it.gap > 0.0);
-        self.follow(lead, inputs.ego.speed);
+        self.follow(lead, inputs.ego.speed, units);
         let at_once = |lead: &Lead, stamp_ns: i64| {
             elapsed_ns(lead.stamp_ns, stamp_ns).unsigned_abs() <= 10_000_000
         };
@@ -143,75 +144,80 @@ impl Watch {
         self.compare(differs);
     }
 
-    fn interval(&mut self, now_ns: i64, period_ns: i64) {
-        let since_ns = self.last_ns.replace(now_ns).map(|last_ns| elapsed_ns(last_ns, now_ns));
-        let Some(since_ns) = since_ns.filter(|it| *it >= 0) else {
-            self.intervals = [0; 3];
-            return;
+    /// The time since the last cycle, in units; below 0 where the clock was set back.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_possible_wrap,
+        reason = "lower bits"
+    )]
+    fn interval(&mut self, now_ns: i64, period_ns: i64) -> i32 {
+        let now = (now_ns >> 16) as u32;
+        let units = now.wrapping_sub(self.last) as i32;
+        self.last = now;
+        let since_ns = i64::from(units) << 16;
+        self.off = if since_ns.saturating_mul(2) > period_ns.saturating_mul(3) {
+            self.off.max(0).saturating_add(1)
+        } else if since_ns.saturating_mul(3) < period_ns.saturating_mul(2) {
+            self.off.min(0).saturating_sub(1)
+        } else {
+            let less = self.off.saturating_abs().saturating_sub(BACK).max(0);
+            less.saturating_mul(self.off.signum())
         };
-        let (twice, thrice) = (since_ns.saturating_mul(2), since_ns.saturating_mul(3));
-        let is_long = twice > period_ns.saturating_mul(3);
-        let is_short = thrice < period_ns.saturating_mul(2);
-        for (count, is) in self.intervals.iter_mut().zip([true, is_long, is_short]) {
-            *count = count.saturating_add(u8::from(is));
-        }
-        let [all, long, short] = self.intervals;
-        if long >= OFF || short >= OFF {
+        if self.off.saturating_abs() >= OFF {
             self.found |= bit(Advice::Period);
         }
-        if all >= CYCLES {
-            self.intervals = [0; 3];
-        }
+        units
     }
 
     /// Whether the gap changes as the speeds say.
-    fn follow(&mut self, lead: Option<Lead>, speed: f64) {
-        let Some(lead) = lead else {
-            (self.window, self.differ) = (None, 0);
+    #[allow(clippy::cast_possible_truncation, reason = "cm do not matter")]
+    fn follow(&mut self, lead: Option<Lead>, speed: f64, units: i32) {
+        let Some(Lead { gap, speed: of_lead, .. }) = lead else {
+            (self.time, self.differ) = (0, 0);
             return;
         };
-        let begun = Window { gap: lead.gap, last: lead, speed, time: 0.0, ways: [0.0; 2] };
-        let window = self.window.get_or_insert(begun);
-        let time = seconds(elapsed_ns(window.last.stamp_ns, lead.stamp_ns));
-        if !(0.0..=0.5 * WINDOW).contains(&time) {
-            (self.window, self.differ) = (Some(begun), 0);
+        let (gap, of_lead, of_cav) = (gap as f32, of_lead as f32, speed as f32);
+        let since = u16::try_from(units).ok().filter(|it| self.time > 0 && *it <= PAUSE);
+        let Some(since) = since else {
+            (self.time, self.gap, self.way, self.differ) = (1, gap, 0.0, 0);
+            return;
+        };
+        let seconds = f32::from(since) * UNIT;
+        self.time = self.time.saturating_add(since);
+        self.gap += (of_lead - of_cav) * seconds;
+        self.way += of_lead.max(of_cav) * seconds;
+        if self.time < WINDOW {
             return;
         }
-        let [of_lead, of_cav] = &mut window.ways;
-        *of_lead += 0.5 * (window.last.speed + lead.speed) * time;
-        *of_cav += 0.5 * (window.speed + speed) * time;
-        (window.last, window.speed, window.time) = (lead, speed, window.time + time);
-        if window.time < WINDOW {
-            return;
-        }
-        let [of_lead, of_cav] = window.ways;
-        let unexplained = lead.gap - window.gap - (of_lead - of_cav);
-        let limit = f64::max(1.0, 0.5 * f64::max(of_lead, of_cav));
-        self.differ = if unexplained > limit {
+        let (more, limit) = (gap - self.gap, f32::max(1.0, 0.5 * self.way));
+        self.differ = if more > limit {
             self.differ.max(0).saturating_add(1)
-        } else if unexplained < -limit {
+        } else if more < -limit {
             self.differ.min(0).saturating_sub(1)
         } else {
             0
         };
-        if self.differ.abs() >= WINDOWS {
+        if self.differ.saturating_abs() >= WINDOWS {
             self.found |= bit(Advice::LeadSpeed);
         }
-        self.window = Some(begun);
+        (self.time, self.gap, self.way) = (1, gap, 0.0);
     }
 
     /// Whether gap and detection differ by the same in cycles in a row.
+    #[allow(clippy::cast_possible_truncation, reason = "mm within 8 m")]
     fn compare(&mut self, differs: Option<f64>) {
         let Some(by) = differs.filter(|by| (-3.0..-0.75).contains(by) || (1.0..8.0).contains(by))
         else {
-            self.beside = (0.0, 0);
+            self.alike = 0;
             return;
         };
-        let (first, count) = self.beside;
-        let is_same = count > 0 && (-0.3..=0.3).contains(&(by - first));
-        self.beside = if is_same { (first, count.saturating_add(1)) } else { (by, 1) };
-        if self.beside.1 >= CYCLES {
-            let kind = if by > 0.0 { Advice::GapTooLong } else { Advice::GapTooShort };
+        let by = (by * 1000.0) as i16;
+        let is_same = self.alike > 0 && self.first.abs_diff(by) <= 300;
+        (self.first, self.alike) =
+            if is_same { (self.first, self.alike.saturating_add(1)) } else { (by, 1) };
+        if self.alike >= CYCLES {
+            let kind = if by > 0 { Advice::GapTooLong } else { Advice::GapTooShort };
             self.found |= bit(kind);
         }
     }

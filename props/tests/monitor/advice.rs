@@ -74,6 +74,9 @@ fn a_clean_drive_gets_no_advice() {
     let across =
         |it: &mut Given| it.world.add([it.world.ego.x + 22.0, 0.0], [0.0, 1.0], [5.0, 0.0]);
     assert_eq!(drive(across), []);
+    // The lead is another one than the car that is detected ahead.
+    let leaving = |it: &mut Given| (it.gap, it.lead_speed) = (GAP + 1.0 + 1.5e-9 * ns(it), 6.5);
+    assert_eq!(drive(leaving), []);
     // It is followed at 3 m/s more, and less.
     assert_eq!(drive(|it| (it.gap, it.lead_speed) = (30.0 + 3e-9 * ns(it), 8.0)), []);
     assert_eq!(drive(|it| (it.gap, it.lead_speed) = (60.0 - 3e-9 * ns(it), 2.0)), []);
