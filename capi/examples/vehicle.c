@@ -174,6 +174,8 @@ int main(void) {
       ++offloaded;
       brake_by = decision.brake_by;
     }
+    /* What this program seems to get wrong: nothing. */
+    if (decision.advice != MUFASA_ADVICE_NONE) fprintf(stderr, "%s\n", mufasa_advice_text(decision.advice)), ++fallbacks;
     take(&decision.actions);
   }
   printf("%zu of %d cycles offloaded, %zu fallback\n", offloaded, CYCLES, fallbacks);

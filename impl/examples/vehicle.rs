@@ -109,6 +109,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         station.take(&actions);
+        // What this program seems to get wrong: nothing.
+        if let Some(advice) = monitor.advice() {
+            return Err(advice.message().into());
+        }
         if cycle % SECOND == 0 {
             println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
         }

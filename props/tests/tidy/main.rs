@@ -10,6 +10,7 @@ mod length;
 mod lines;
 mod links;
 mod loops;
+mod misuse;
 mod must;
 mod names;
 mod packages;
@@ -96,6 +97,12 @@ fn no_packages_depend_on_each_other_in_a_circle() {
 #[test]
 fn no_package_outside_of_lab_needs_one_in_it() {
     judge(&packages::need_the_laboratory(&Tree::here()), &[]);
+}
+
+/// What is told of misuse is tested.
+#[test]
+fn each_row_of_the_tables_of_misuse_has_its_test() {
+    judge(&misuse::wrong(&Tree::here()), &[]);
 }
 
 /// The table is what a newcomer reads first.
