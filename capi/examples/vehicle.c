@@ -51,6 +51,7 @@ static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
 static struct MufasaMonitor *make_monitor(void) {
   struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
+  settings.stages.tau = 0.25; /* from the measurement to full braking: docs/assumptions.md, A-07 */
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);
   check(mufasa_monitor_init(&settings, malloc(bytes), bytes, &monitor), "a monitor");
