@@ -95,7 +95,8 @@ impl<'a> Monitored<'a> {
             stages: cycle.parameters,
             ..Settings::new(Duration::from_millis(50))
         }
-        .in_any_time();
+        .in_any_time()
+        .in_any_range();
         let mut monitor = Monitor::new(settings, memory).expect("the workloads are valid input");
         monitor.set_route(&cycle.route).expect("the workloads are valid input");
         // As at 10 Hz; between the lists of the history any others.

@@ -26,7 +26,7 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     const TRACKS: u32 = 128;
     const POINTS: usize = 128;
     const DETECTIONS: u32 = 256;
-    let cross_sections = road(1024);
+    let cross_sections = road(640);
     let grid = vec![0; 4096 * 4096 / 8];
     let whole = base(&cross_sections, &grid);
     let work_limit = i64::from(TRACKS) * i64::from(TRACKS) * i64::from(DETECTIONS);
@@ -43,7 +43,7 @@ pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
     row(Stage::I, "128 tracks a millimetre apart, 256 detections in a row across", &cycle);
     let upon = timed(places(128, 0.1).map(|x| point(x, 0.0)).collect());
     let cycle = Cycle { trajectory: Some(trajectory(&upon)), ..base };
-    row(Stage::Ii, "128 points on 1024 cross sections of a road without width", &cycle);
+    row(Stage::Ii, "128 points on 640 cross sections of a road without width", &cycle);
     let standing = timed(vec![point(0.0, 0.0); POINTS]);
     let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
     let touching = 0.5 * (base.ego.width + 1.8) + 1e-8;

@@ -51,6 +51,7 @@ static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
 static struct MufasaMonitor *make_monitor(void) {
   struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
+  settings.stages.tau = 0.25; /* from the measurement to full braking: docs/assumptions.md, A-07 */
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);
   check(mufasa_monitor_init(&settings, malloc(bytes), bytes, &monitor), "a monitor");
@@ -174,6 +175,8 @@ int main(void) {
       ++offloaded;
       brake_by = decision.brake_by;
     }
+    /* What this program seems to get wrong: nothing. */
+    if (decision.advice != MUFASA_ADVICE_NONE) fprintf(stderr, "%s\n", mufasa_advice_text(decision.advice)), ++fallbacks;
     take(&decision.actions);
   }
   printf("%zu of %d cycles offloaded, %zu fallback\n", offloaded, CYCLES, fallbacks);

@@ -99,6 +99,8 @@ enum MufasaStatus
   MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 16,
   // A cycle with lists as long as they may become could take longer than check_time.
   MUFASA_STATUS_TOO_SLOW = 17,
+  // A setting that no road vehicle has, and that is not named in `meant`.
+  MUFASA_STATUS_UNUSUAL = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -373,6 +375,38 @@ enum MufasaDropReason
 typedef enum MufasaDropReason MufasaDropReason;
 #else
 typedef uint32_t MufasaDropReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What the program around the monitor seems to get wrong, each told once (`spec/4-arithmetic.md#advice`). No verdict
+// depends on it: write it to a log that somebody reads.
+enum MufasaAdvice
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing new.
+  MUFASA_ADVICE_NONE = 0,
+  // Cycles come in another period than period_ns.
+  MUFASA_ADVICE_PERIOD = 1,
+  // Detections are given, and none was current.
+  MUFASA_ADVICE_DETECTIONS_NOT_CURRENT = 2,
+  // A lead is given, and none was current: for the stages nobody is ahead.
+  MUFASA_ADVICE_LEAD_NOT_CURRENT = 3,
+  // A grid is given, and none was current.
+  MUFASA_ADVICE_GRID_NOT_CURRENT = 4,
+  // The gap does not change as the speeds of lead and CAV say: km/h, or a speed relative to the CAV.
+  MUFASA_ADVICE_LEAD_SPEED = 5,
+  // The gap is longer than the way to the detection ahead: between centres, or from the reference point.
+  MUFASA_ADVICE_GAP_TOO_LONG = 6,
+  // It is shorter: detections that are too small, or a center_offset that is too small.
+  MUFASA_ADVICE_GAP_TOO_SHORT = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaAdvice MufasaAdvice;
+#else
+typedef uint32_t MufasaAdvice;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -910,6 +944,8 @@ typedef struct MufasaMonitorSettings {
   int64_t check_time_ns;
   // What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
   uint64_t step_ps;
+  // Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
+  uint32_t meant;
   // Stations that ever offer something, at least 1.
   size_t most_stations;
   // Tracks of a list, at least 1.
@@ -999,6 +1035,8 @@ typedef struct MufasaDecision {
   // Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
   // it in each period has started them even when he lost an action.
   uint32_t local_services;
+  // What this program seems to get wrong, if there is something new; `mufasa_advice_text` says it in words.
+  MufasaAdvice advice;
 } MufasaDecision;
 
 #ifdef __cplusplus
@@ -1142,11 +1180,17 @@ MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
                                     struct MufasaRequesterState *state);
 
 // The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
-// 256 detections and 1024 cross sections.
+// 256 detections and 640 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
 // Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
 uint64_t mufasa_monitor_calibrate(void);
+
+// What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.
+//
+// # Safety
+// `field` is null or points to a text that ends with 0.
+MUFASA_MUST_USE uint32_t mufasa_monitor_meant(const char *field);
 
 // Bytes of memory for a monitor with these settings; SIZE_MAX when they cannot be read.
 //
@@ -1268,6 +1312,9 @@ MUFASA_MUST_USE const char *mufasa_drop_reason_text(uint32_t reason);
 
 // A MufasaActionType in words.
 MUFASA_MUST_USE const char *mufasa_action_text(uint32_t action_type);
+
+// A MufasaAdvice in words.
+MUFASA_MUST_USE const char *mufasa_advice_text(uint32_t advice);
 
 #ifdef __cplusplus
 }  // extern "C"

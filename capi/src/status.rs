@@ -47,4 +47,6 @@ pub enum MufasaStatus {
     TauNotAbovePeriod = 16,
     /// A cycle with lists as long as they may become could take longer than check_time.
     TooSlow = 17,
+    /// A setting that no road vehicle has, and that is not named in `meant`.
+    Unusual = 18,
 }

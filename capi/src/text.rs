@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 
 /// By their numbers.
-const STATUSES: [&CStr; 18] = [
+const STATUSES: [&CStr; 19] = [
     c"done",
     c"a pointer that must not be null is null",
     c"a pointer is misaligned",
@@ -22,6 +22,7 @@ const STATUSES: [&CStr; 18] = [
     c"max_age below l_max",
     c"tau not above the period",
     c"a cycle may take longer than check_time",
+    c"a setting that no road vehicle has",
 ];
 const DROP_REASONS: [&CStr; 9] = [
     c"not dropped",
@@ -41,6 +42,17 @@ const ACTIONS: [&CStr; 5] = [
     c"start the local services",
     c"stop the local services",
     c"drop the element",
+];
+
+const ADVICE: [&CStr; 8] = [
+    c"no advice",
+    c"cycles come in another period than period_ns",
+    c"no detections are current; is their stamp right?",
+    c"no lead is current, as if nobody were ahead; is its stamp right?",
+    c"no grid is current; is its stamp right?",
+    c"the gap does not change as the speeds say; are they in m/s over ground?",
+    c"the gap is longer than the way to the detection ahead; is it between bumpers?",
+    c"the gap is shorter than the way to the detection ahead; are sizes and center_offset right?",
 ];
 
 fn text(of: &[&'static CStr], number: u32) -> *const c_char {
@@ -67,4 +79,11 @@ pub extern "C" fn mufasa_drop_reason_text(reason: u32) -> *const c_char {
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_action_text(action_type: u32) -> *const c_char {
     text(&ACTIONS, action_type.wrapping_sub(1))
+}
+
+/// A MufasaAdvice in words.
+#[must_use]
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_advice_text(advice: u32) -> *const c_char {
+    text(&ADVICE, advice)
 }

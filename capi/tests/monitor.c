@@ -208,6 +208,20 @@ static void a_decision_that_cannot_be_written_is_none(void) {
   EXPECT(decision.tracks != NULL);
 }
 
+/* A speed of the lead in km/h is told once; the gap stays the same, so that it is that of a lead at 5 m/s. */
+static void what_contradicts_itself_is_told_once(void) {
+  struct MufasaMonitor *monitor = offloading();
+  int told = 0;
+  lead.speed = 18;
+  for (int64_t now_ns = 20 * MS; now_ns < 8000 * MS; now_ns += 20 * MS) {
+    cycle(monitor, now_ns);
+    EXPECT(decision.advice == MUFASA_ADVICE_NONE || decision.advice == MUFASA_ADVICE_LEAD_SPEED);
+    told += decision.advice != MUFASA_ADVICE_NONE;
+  }
+  lead.speed = 0;
+  EXPECT(told == 1 && strlen(mufasa_advice_text(MUFASA_ADVICE_LEAD_SPEED)) > 20);
+}
+
 static void events_that_are_not_for_the_caller(void) {
   struct MufasaMonitor *monitor = offloading();
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_DATA, 5 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
@@ -290,6 +304,14 @@ static void a_status_of_the_settings_has_a_field(void) {
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_TOO_SLOW && monitor == NULL);
   EXPECT(mufasa_monitor_calibrate() > 10000);
   it = settings();
+  it.stages.a_b = 80;
+  is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_UNUSUAL && monitor == NULL);
+  it.meant = mufasa_monitor_meant("stages.tau") + mufasa_monitor_meant("no such") + mufasa_monitor_meant(NULL);
+  is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  it.meant += mufasa_monitor_meant("stages.a_b");
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it = settings();
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
@@ -352,6 +374,7 @@ int main(void) {
   faults_fall_back();
   a_decision_that_cannot_be_written_is_none();
   events_that_are_not_for_the_caller();
+  what_contradicts_itself_is_told_once();
   settings_that_no_monitor_can_keep();
   a_status_of_the_settings_has_a_field();
   times_have_units();

@@ -114,6 +114,7 @@ impl InC {
             requester: bridge::parameters_to_impl(&settings.requester).into(),
             sessions_before: settings.last_session,
             check_time_ns: i64::MAX,
+            meant: u32::MAX,
             most_tracks: count(settings.memory.tracks),
             most_detections: count(settings.memory.detections),
             most_cross_sections: count(settings.memory.cross_sections),

@@ -29,6 +29,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = Settings::new(PERIOD);
     // Two periods and the largest jitter: one lost message does not end a session.
     settings.requester.dt_max_ns = 120_000_000;
+    // From the measurement to full braking (docs/assumptions.md, A-07).
+    settings.stages.tau = 0.25;
     let route = road();
     let memory = Memory {
         stations: &mut [StationRecord::FREE; 4],
@@ -109,6 +111,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         station.take(&actions);
+        // What this program seems to get wrong: nothing.
+        if let Some(advice) = monitor.advice() {
+            return Err(advice.message().into());
+        }
         if cycle % SECOND == 0 {
             println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
         }

@@ -1,6 +1,6 @@
 //! A safety monitor for vehicles that let a remote server do their tracking and their trajectory
 //! planning: MUFASA (Dehler, Schumann, Ruof, Buchholz, ITSC 2025) with the rules that close its gaps.
-//! `no_std`, no heap, no clock, no `unsafe`, and no panics, which lints forbid and tests look for; of few
+//! `no_std`, no heap, no clock, no `unsafe` of its own, and no panics, which lints forbid and tests look for; of few
 //! parts it is proved (`proofs/HARNESSES.md`).
 //!
 //! [`Monitor`](monitor::Monitor) is what a vehicle uses: it takes what happens and what was measured,
@@ -24,7 +24,9 @@
 //! use mufasa::offloading::requester::{Action, Group, Groups, StationRecord};
 //!
 //! // Results come at 20 Hz; `dt_max`, 100 ms by default, has to be above the period.
-//! let settings = Settings::new(Duration::from_millis(50));
+//! let mut settings = Settings::new(Duration::from_millis(50));
+//! // From the measurement to full braking: the default, 0.1 s, is too short at 20 Hz.
+//! settings.stages.tau = 0.25;
 //! let memory = Memory {
 //!     stations: &mut [StationRecord::FREE; 4],
 //!     rows: &mut vec![Row::default(); 64],

@@ -3,7 +3,7 @@
 use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{Decision, DropReason, Inputs, Monitor, Time, Verified};
+use mufasa::monitor::{Advice, Decision, DropReason, Inputs, Monitor, Time, Verified};
 use mufasa::offloading::requester::{Action, Actions, Group, Source};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
@@ -53,6 +53,43 @@ impl From<DropReason> for MufasaDropReason {
     }
 }
 
+/// What the program around the monitor seems to get wrong, each told once (`spec/4-arithmetic.md#advice`). No verdict
+/// depends on it: write it to a log that somebody reads.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaAdvice {
+    /// Nothing new.
+    None = 0,
+    /// Cycles come in another period than period_ns.
+    Period = 1,
+    /// Detections are given, and none was current.
+    DetectionsNotCurrent = 2,
+    /// A lead is given, and none was current: for the stages nobody is ahead.
+    LeadNotCurrent = 3,
+    /// A grid is given, and none was current.
+    GridNotCurrent = 4,
+    /// The gap does not change as the speeds of lead and CAV say: km/h, or a speed relative to the CAV.
+    LeadSpeed = 5,
+    /// The gap is longer than the way to the detection ahead: between centres, or from the reference point.
+    GapTooLong = 6,
+    /// It is shorter: detections that are too small, or a center_offset that is too small.
+    GapTooShort = 7,
+}
+
+impl From<Advice> for MufasaAdvice {
+    fn from(advice: Advice) -> Self {
+        match advice {
+            Advice::Period => Self::Period,
+            Advice::DetectionsNotCurrent => Self::DetectionsNotCurrent,
+            Advice::LeadNotCurrent => Self::LeadNotCurrent,
+            Advice::GridNotCurrent => Self::GridNotCurrent,
+            Advice::LeadSpeed => Self::LeadSpeed,
+            Advice::GapTooLong => Self::GapTooLong,
+            Advice::GapTooShort => Self::GapTooShort,
+        }
+    }
+}
+
 /// What has to be done about an event, in this order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -89,6 +126,8 @@ pub struct MufasaDecision {
     /// Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
     /// it in each period has started them even when he lost an action.
     pub local_services: u32,
+    /// What this program seems to get wrong, if there is something new; `mufasa_advice_text` says it in words.
+    pub advice: MufasaAdvice,
 }
 
 /// No time by which to brake.
@@ -121,7 +160,8 @@ impl Verdicts {
         let is_local = |group: &Group| monitor.source(*group) == Source::Local;
         let local = Group::ALL.into_iter().filter(is_local);
         let local_services = local.fold(0, |sum, group| sum | event::group_number(group) as u32);
-        MufasaDecision { local_services, ..told }
+        let advice = monitor.advice().map_or(MufasaAdvice::None, Into::into);
+        MufasaDecision { local_services, advice, ..told }
     }
 
     /// What the last cycle gave ends with it: who kept a pointer finds empty lists, and numbers that are none.
@@ -142,6 +182,7 @@ impl Verdicts {
                 brake_by: trajectory.and_then(|it| it.brake_by()).map_or(NEVER, time),
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
+                advice: MufasaAdvice::None,
             },
             Decision::Unsafe { report, .. } => MufasaDecision {
                 report: match report {
@@ -153,6 +194,7 @@ impl Verdicts {
                 brake_by: NEVER,
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
+                advice: MufasaAdvice::None,
             },
         }
     }
@@ -189,6 +231,7 @@ pub(super) fn nothing_decided() -> MufasaDecision {
         brake_by: NEVER,
         actions: actions_of(&[]),
         local_services: EVERY_GROUP,
+        advice: MufasaAdvice::None,
     }
 }
 

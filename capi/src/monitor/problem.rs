@@ -1,6 +1,6 @@
 //! Which field a status is about.
 
-use mufasa::monitor::MonitorError;
+use mufasa::monitor::{MonitorError, Unusual};
 use mufasa::offloading::requester::{Requester, RequesterError};
 
 use super::place::{MufasaMonitor, Sizes};
@@ -116,6 +116,13 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
                 list => list,
             };
             report::wrong(field, "too many for check_time_ns; give fewer, or more time")
+        }
+        MonitorError::Unusual(Unusual { field, .. }) => {
+            let field = if field == "period" { "period_ns" } else { field };
+            report::wrong(
+                field,
+                "no road vehicle has that; is it in another unit? Else name it in meant",
+            )
         }
     };
     (refused(error), told)

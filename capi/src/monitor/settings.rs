@@ -1,5 +1,6 @@
 //! What a monitor is made with.
 
+use core::ffi::{CStr, c_char};
 use core::time::Duration;
 
 use mufasa::monitor::{Monitor, MonitorError, Settings};
@@ -32,6 +33,8 @@ pub struct MufasaMonitorSettings {
     pub check_time_ns: i64,
     /// What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
     pub step_ps: u64,
+    /// Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
+    pub meant: u32,
     /// Stations that ever offer something, at least 1.
     pub most_stations: usize,
     /// Tracks of a list, at least 1.
@@ -45,7 +48,7 @@ pub struct MufasaMonitorSettings {
 }
 
 /// The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
-/// 256 detections and 1024 cross sections.
+/// 256 detections and 640 cross sections.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonitorSettings {
     MufasaMonitorSettings {
@@ -56,11 +59,12 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         sessions_before: 0,
         check_time_ns: 10_000_000,
         step_ps: 750,
+        meant: 0,
         most_stations: 8,
         most_tracks: 128,
         most_points: 128,
         most_detections: 256,
-        most_cross_sections: 1024,
+        most_cross_sections: 640,
     }
 }
 
@@ -68,6 +72,20 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
     Monitor::calibrate()
+}
+
+/// What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.
+///
+/// # Safety
+/// `field` is null or points to a text that ends with 0.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_meant(field: *const c_char) -> u32 {
+    if field.is_null() {
+        return 0;
+    }
+    // SAFETY: the caller's duty.
+    unsafe { CStr::from_ptr(field) }.to_str().map_or(0, Settings::bit_of)
 }
 
 impl MufasaMonitorSettings {
@@ -89,6 +107,7 @@ impl MufasaMonitorSettings {
             sessions_before: self.sessions_before,
             check_time,
             step_ps: self.step_ps,
+            meant: self.meant,
             ..Settings::new(period)
         })
     }
@@ -108,5 +127,6 @@ pub(super) fn refused(error: MonitorError) -> MufasaStatus {
         MonitorError::TauNotAbovePeriod { .. } => MufasaStatus::TauNotAbovePeriod,
         MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
         MonitorError::TooSlow { .. } => MufasaStatus::TooSlow,
+        MonitorError::Unusual(_) => MufasaStatus::Unusual,
     }
 }

@@ -138,6 +138,10 @@ impl Monitor<'_> {
             *problem = named(*problem, has_route);
         }
         let is_valid = report.is_ok();
+        let max_age_ns = self.settings.stages.max_age_ns;
+        if is_valid {
+            self.watch.cycle(inputs, self.settings.period_ns(), max_age_ns);
+        }
         let dt_max_ns = self.settings.requester.dt_max_ns;
         let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
         let is_remote = mot.is_some() || plan.is_some();
@@ -146,7 +150,6 @@ impl Monitor<'_> {
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
 
-        let max_age_ns = self.settings.stages.max_age_ns;
         let current = |stamp_ns| is_current(stamp_ns, now_ns, max_age_ns);
         let has_current = [
             tracks.is_some_and(|list| current(list.stamp_ns)),

@@ -12,6 +12,7 @@
 //! before the CAV's own detections reach back half a second: without them nothing that the station leaves
 //! out is examined as moving (H-14). Both show in [`Requester::hold_until_ns`].
 
+mod advice;
 pub(crate) mod arriving;
 mod calibration;
 mod cycle;
@@ -28,7 +29,9 @@ pub(crate) mod served;
 mod settings;
 pub(crate) mod stall;
 mod time;
+mod unusual;
 
+pub use self::advice::Advice;
 pub use self::decision::{Brake, Decision, Verified};
 pub use self::element::{Accepted, Arrival, DropReason, Message};
 pub use self::inputs::{Gap, GridMap, Inputs};
@@ -36,7 +39,9 @@ pub use self::memory::Memory;
 pub use self::settings::{MonitorError, Settings};
 pub use self::stall::Stall;
 pub use self::time::{Time, TimeError};
+pub use self::unusual::Unusual;
 
+use self::advice::Watch;
 use self::history::History;
 use self::memory::Lengths;
 use self::route::KeptRoute;
@@ -62,6 +67,7 @@ pub struct Monitor<'a> {
     /// What the last cycle said of the CAV's own plan.
     brake: Option<Brake>,
     progress: Progress,
+    watch: Watch,
     history: History<'a>,
     route: KeptRoute<'a>,
     /// Sizes that are checked in time, whatever a cycle of them holds.
@@ -98,6 +104,7 @@ impl<'a> Monitor<'a> {
             ticked: None,
             brake: None,
             progress: Progress::default(),
+            watch: Watch::default(),
             history: History::new(detections, slots, capacity).ok_or(too_few)?,
             route: KeptRoute::new(cross_sections, blocks),
             in_time,
@@ -129,6 +136,12 @@ impl<'a> Monitor<'a> {
     /// Whose results of a group may reach control. Source: `spec/1-services.md#configuration`.
     pub const fn source(&self, group: Group) -> Source {
         self.requester.source(group)
+    }
+
+    /// What the vehicle's program seems to get wrong, each once: to be asked after each cycle, and written to a log that
+    /// somebody reads. It never changes a verdict. Source: `spec/4-arithmetic.md#advice`.
+    pub fn advice(&mut self) -> Option<Advice> {
+        self.watch.next()
     }
 
     /// The requester, to look at: states, holds, the last session. Source:

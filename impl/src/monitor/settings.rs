@@ -5,6 +5,7 @@ use core::time::Duration;
 
 use super::stall::Stall;
 use super::time::Time;
+use super::unusual::{Unusual, bits, is_unusual, rows};
 use crate::cycle::steps::{Counts, LISTS, List, most_steps};
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
@@ -46,6 +47,8 @@ pub struct Settings {
     pub check_time: Duration,
     /// What a step costs on this processor, ps: [`Monitor::calibrate`](super::Monitor::calibrate).
     pub step_ps: u64,
+    /// What is meant although it is unusual: [`Settings::meaning`], [`Settings::in_any_range`].
+    pub meant: u32,
 }
 
 impl Settings {
@@ -63,6 +66,7 @@ impl Settings {
             stall: None,
             check_time: Duration::from_millis(10),
             step_ps: 750,
+            meant: 0,
         }
     }
 
@@ -71,6 +75,38 @@ impl Settings {
     #[must_use]
     pub const fn in_any_time(self) -> Self {
         Self { check_time: Duration::MAX, ..self }
+    }
+
+    /// The settings outside of their usual ranges, meant or not. Source:
+    /// `spec/4-arithmetic.md#usual-settings`.
+    pub fn unusual(&self) -> impl Iterator<Item = Unusual> {
+        self.rows().into_iter().filter(is_unusual)
+    }
+
+    /// The same, with a setting that is meant although it is unusual: "stages.a_b", or "a_b" alone. A name that there
+    /// is not means nothing. Source: `spec/4-arithmetic.md#usual-settings`.
+    #[must_use]
+    pub fn meaning(self, field: &str) -> Self {
+        Self { meant: self.meant | Self::bit_of(field), ..self }
+    }
+
+    /// The same for who wants the whole domain: nothing is refused for being unusual. Source:
+    /// `spec/4-arithmetic.md#usual-settings`.
+    #[must_use]
+    pub const fn in_any_range(self) -> Self {
+        Self { meant: u32::MAX, ..self }
+    }
+
+    /// What `meant` has of a setting; 0 of a name that there is not. Source:
+    /// `spec/4-arithmetic.md#usual-settings`.
+    pub fn bit_of(field: &str) -> u32 {
+        let rows = Self::new(Duration::ZERO).rows();
+        let is_named = |name: &str| name == field || name.rsplit('.').next() == Some(field);
+        bits().zip(rows).find(|(_, row)| is_named(row.field)).map_or(0, |(bit, _)| bit)
+    }
+
+    fn rows(&self) -> [Unusual; 23] {
+        rows(&self.stages, &self.requester, self.period, self.step_ps)
     }
 
     /// Whether a monitor may be made with it, apart from its memory.
@@ -109,7 +145,13 @@ impl Settings {
                 return Err(MonitorError::Stall { way_m, time });
             }
         }
-        Ok(())
+        if self.meant == u32::MAX {
+            return Ok(());
+        }
+        // A time below 0 is refused by the requester.
+        let mut rows = bits().zip(self.rows()).filter(|(_, row)| row.value >= 0.0);
+        let not_meant = rows.find(|(bit, row)| self.meant & bit == 0 && is_unusual(row));
+        not_meant.map_or(Ok(()), |(_, row)| Err(MonitorError::Unusual(row)))
     }
 }
 
@@ -131,7 +173,7 @@ impl Settings {
     }
 
     /// Whether what fits into memory for so many tracks, detections and cross sections is checked in time, with
-    /// 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
+    /// 128 points, the places at 36 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
     /// is too much.
     ///
     /// Errors: which of the lists is too long. Source: `spec/4-arithmetic.md#steps`.
@@ -241,6 +283,8 @@ pub enum MonitorError {
         /// What was given.
         time: Duration,
     },
+    /// A setting is outside of its usual range, and not named as meant ([`Settings::meaning`]).
+    Unusual(Unusual),
     /// A slice of the memory that is lent has too few elements.
     Memory {
         /// The slice.
@@ -307,6 +351,7 @@ impl fmt::Display for MonitorError {
                  stop that a station's planning may make, or None",
                 time.as_secs_f64()
             ),
+            Self::Unusual(unusual) => unusual.fmt(f),
             Self::TooSlow { list, given, most, steps, most_steps } => write!(
                 f,
                 "{list}: memory for {given} is too much by {}: a cycle may take {steps} steps, and \

@@ -141,5 +141,5 @@ pub fn settings(played: &Played, requester: &Parameters) -> Settings {
         ..Settings::new(period)
     };
     // Lent memory for all of the domain.
-    settings.in_any_time()
+    settings.in_any_time().in_any_range()
 }

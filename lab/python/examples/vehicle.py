@@ -37,7 +37,8 @@ CYCLES = 20 * SECOND
 
 
 def main() -> None:
-    monitor = Monitor(PERIOD)
+    # From the measurement to full braking (docs/assumptions.md, A-07).
+    monitor = Monitor(PERIOD, parameters={"tau": 0.25})
     # A straight road of 300 m, 6 m wide.
     road = [CrossSection(x, 0.0, (x, 3.0), (x, -3.0)) for x in range(-50, 260, 10)]
     monitor.set_route(road)

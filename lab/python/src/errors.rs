@@ -1,6 +1,6 @@
 //! The errors of `package/mufasa/_errors.py`.
 
-use mufasa::monitor::MonitorError;
+use mufasa::monitor::{MonitorError, Unusual};
 use mufasa_model::report::InvalidInput as Problem;
 use mufasa_records::names::Words;
 use pyo3::prelude::*;
@@ -50,7 +50,9 @@ pub fn no_monitor(error: MonitorError) -> PyErr {
     let field = match error {
         MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
         MonitorError::NoPeriod => "period",
-        MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
+        MonitorError::TimeTooShort { field, .. } | MonitorError::Unusual(Unusual { field, .. }) => {
+            field.rsplit('.').next().unwrap_or(field)
+        }
         MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
         MonitorError::TauNotAbovePeriod { .. } => "tau",

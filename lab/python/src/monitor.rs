@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
-    Accepted, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings, Time as NativeTime,
+    Accepted, Advice, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings,
+    Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
 use mufasa_model::input::cycle::Profile;
@@ -59,8 +60,8 @@ impl Monitor {
     #[pyo3(signature = (
         period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
         sessions_before = SessionsBefore(0), most_stations = MostStations(64), check_time = None,
-        step_ps = StepPs(750)
-    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750)")]
+        step_ps = StepPs(750), meant = Vec::new()
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750, meant=())")]
     fn new(
         period: Period,
         profile: OneProfile,
@@ -69,9 +70,10 @@ impl Monitor {
         most_stations: MostStations,
         check_time: Option<CheckTime>,
         step_ps: StepPs,
+        meant: Vec<String>,
     ) -> PyResult<Self> {
-        let sessions_before = sessions_before.0;
-        let mut settings = Settings { sessions_before, ..Settings::new(period.0) };
+        let settings = Settings { sessions_before: sessions_before.0, ..Settings::new(period.0) };
+        let mut settings = meant.iter().fold(settings, |it, field| it.meaning(field));
         settings.check_time = check_time.map_or(Duration::MAX, |it| it.0);
         settings.step_ps = step_ps.0;
         settings.profile = bridge::profile_to_impl(profile.0);
@@ -85,10 +87,8 @@ impl Monitor {
             settings.requester = bridge::parameters_to_impl(&requester);
         }
         if most_stations.0 > MOST_STATIONS {
-            return Err(invalid(wrong(
-                "most_stations",
-                format!("must be at most {MOST_STATIONS}"),
-            )));
+            let message = format!("must be at most {MOST_STATIONS}");
+            return Err(invalid(wrong("most_stations", message)));
         }
         let place = Place::with(&settings, most_stations.0).map_err(no_monitor)?;
         let (tracks, trajectory, to_do) = (None, None, None);
@@ -174,6 +174,11 @@ impl Monitor {
     /// Time passes: to be called in each period, before its cycle.
     fn tick(&mut self, py: Python<'_>, now: Time) -> PyResult<Py<Actions>> {
         self.event(py, now, |monitor, now| Ok(monitor.tick(now)))
+    }
+
+    /// What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``); else ``None``.
+    fn advice(&mut self) -> Option<&'static str> {
+        self.place.with_dependent_mut(|_, monitor| monitor.advice()).map(Advice::message)
     }
 
     /// Tracks (``Track``) of a station arrive; they are copied. Used are those of the running session, in

@@ -148,7 +148,7 @@ def test_what_was_handed_in_is_out_of_reach(scene: Scene) -> None:
     points[0] = points[0]._replace(x=40.0)
     shown = {name for name in dir(monitor) if not name.startswith("_")}
     calls = "set_route offer withdraw lost confirm reject area tick tracks trajectory cycle own"
-    assert shown == {*calls.split(), *"configuration source session_of sessions hold_until".split()}
+    assert shown == {*calls.split(), *"configuration source session_of sessions hold_until advice".split()}
     decision = scene.decide(monitor, 10)
     assert decision.tracks is not None and decision.tracks.items == scene.tracks
     assert decision.trajectory is not None and decision.trajectory.points == scene.plan(10)
@@ -349,6 +349,7 @@ def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
         ({"check_time": timedelta(hours=1), "step_ps": 2**64 - 1}, "check_time"),
         ({"check_time": timedelta(milliseconds=-1)}, "check_time"),
         ({"profile": "lax"}, "profile"),
+        ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.25, "a_b": 80}}, "a_b"),
     ],
 )
 def test_settings_that_no_monitor_can_keep(settings: dict[str, Any], field: str) -> None:
@@ -477,3 +478,12 @@ def test_ticks_that_are_forgotten_are_told(scene: Scene) -> None:
     decision = monitor.cycle(at(20), Scene.ego, detections=Detections(at(20), Scene.parked))
     assert decision.error is not None and decision.error.field == "tick"
     assert monitor.configuration == "Local"
+
+
+def test_a_speed_that_the_gap_contradicts_is_told_once(scene: Scene) -> None:
+    monitor, told = scene.monitor(), []
+    for ms in range(0, 5000, 100):
+        lead = mufasa.Lead(at(ms), Gap.between_bumpers(30.0), 18.0)
+        scene.decide(monitor, ms, lead=lead)
+        told.append(monitor.advice())
+    assert len([it for it in told if it and "m/s" in it]) == 1

@@ -139,6 +139,6 @@ impl Settings {
             ..monitor::Settings::new(period)
         };
         // Lent memory for all of the domain.
-        settings.in_any_time()
+        settings.in_any_time().in_any_range()
     }
 }

@@ -71,8 +71,8 @@ pub fn settings_to_impl(settings: &Settings) -> Option<twin::Settings> {
         stall,
         ..twin::Settings::new(span(*period_ns)?)
     };
-    // The model takes any time.
-    Some(made.in_any_time())
+    // The model takes any time, and its whole domain.
+    Some(made.in_any_time().in_any_range())
 }
 
 /// The memory of these settings.

@@ -25,7 +25,7 @@ impl Buffers {
 
     pub fn monitor(&mut self, settings: Settings) -> Result<Monitor<'_>, MonitorError> {
         // There is memory for all tracks of the domain.
-        Monitor::new(settings.in_any_time(), self.0.memory())
+        Monitor::new(settings.in_any_time().in_any_range(), self.0.memory())
     }
 
     /// A monitor with the settings of this kit that has just been started on this road.

@@ -4,6 +4,7 @@
 
 #![allow(clippy::large_types_passed_by_value, reason = "settings, once for each monitor")]
 
+mod advice;
 mod again;
 mod blind;
 mod brake_by;
@@ -21,3 +22,4 @@ mod reached;
 mod restart;
 mod stack;
 mod starved;
+mod unusual;

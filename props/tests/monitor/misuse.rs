@@ -326,6 +326,51 @@ fn what_another_monitor_accepted_is_missing() {
     }
 }
 
+/// Both are numbers from 1 on. Nothing comes of them in the other's place.
+#[test]
+fn station_and_session_swapped_give_nothing() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let (station, session) = (7, 1);
+    let _none = monitor.offer(at(0), station, Groups::ALL).expect("a station");
+    let _requests = monitor.tick(at(0));
+    let _none = monitor.confirm(at(0), session, Group::Mot, station).expect("a station");
+    assert_eq!(monitor.configuration(), Configuration::Local);
+    let _none = monitor.confirm(at(0), station, Group::Mot, session).expect("a station");
+    assert_eq!(monitor.configuration(), Configuration::MotRemote);
+    let tracks = Message { station: session, ..message(station, at(0), World::at(0).tracks) };
+    let (arrival, _drop) = monitor.tracks(at(0), tracks).expect("a station");
+    assert!(matches!(arrival, Arrival::Dropped { why: DropReason::OtherSession }));
+}
+
+/// What no type and no check notices (`docs/misuse.md`): the vehicle's program has to keep it.
+#[test]
+fn what_compiles_and_is_a_duty() {
+    let (cross_sections, world) = (road(), World::at(300 * MS));
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let station = driven(&mut monitor, 3);
+    let now = at(world.now_ns);
+    let _ = monitor.tick(now);
+    monitor.offer(now, 2, Groups::ALL).ok();
+    // Made 40 ms ago for now, and told as made now for 40 ms ago.
+    let (before, session) = (at(world.now_ns - 40 * MS), station.sessions[1].expect("PLAN"));
+    let right = Message { generated: before, ..message(session, now, world.points.clone()) };
+    let driven_unchecked = right.items.clone();
+    let swapped = Message { generated: right.stamp, stamp: right.generated, ..right };
+    let (arrival, _none) = monitor.trajectory(now, swapped).expect("a station");
+    let Arrival::Accepted(accepted) = arrival else { panic!("{arrival:?}") };
+    let inputs = Inputs::new(now, world.ego)
+        .detections(now, &world.detections)
+        .local_trajectory(now, &driven_unchecked)
+        .remote_trajectory(&accepted);
+    let Decision::Safe { trajectory: Some(verified), .. } = monitor.cycle(&inputs).0 else {
+        panic!("safe")
+    };
+    assert!(verified.brake_by().is_some() && verified.points.to_vec() == driven_unchecked);
+}
+
 /// The stages with scratch of the size that the cycle asks for.
 fn check_plainly(cycle: &Cycle<'_>) -> Result<Report, InvalidInput> {
     let sizes = Sizes::for_cycle(cycle);

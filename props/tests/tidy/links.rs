@@ -82,7 +82,8 @@ fn prose(text: &str) -> String {
     fences_left_out(text).split('`').step_by(2).collect()
 }
 
-fn fences_left_out(text: &str) -> String {
+/// Without fenced and indented blocks.
+pub fn fences_left_out(text: &str) -> String {
     let mut fenced = false;
     let mut kept = String::new();
     for line in text.lines() {

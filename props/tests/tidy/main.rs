@@ -3,9 +3,14 @@
 //! breaks it. Exceptions stand here, each with its reason; one that is not needed any more fails.
 
 mod circles;
+mod evidence;
 mod length;
+#[expect(dead_code, reason = "of it the names of items are asked for alone")]
+#[path = "../tree/lines.rs"]
+mod lines;
 mod links;
 mod loops;
+mod misuse;
 mod must;
 mod names;
 mod packages;
@@ -94,6 +99,12 @@ fn no_package_outside_of_lab_needs_one_in_it() {
     judge(&packages::need_the_laboratory(&Tree::here()), &[]);
 }
 
+/// What is told of misuse is tested.
+#[test]
+fn each_row_of_the_tables_of_misuse_has_its_test() {
+    judge(&misuse::wrong(&Tree::here()), &[]);
+}
+
 /// The table is what a newcomer reads first.
 #[test]
 fn the_architecture_names_the_packages_with_their_dependencies() {
@@ -122,6 +133,12 @@ fn no_link_leads_nowhere() {
 #[test]
 fn every_file_that_is_named_exists() {
     judge(&links::named(&Tree::here()), ELSEWHERE);
+}
+
+/// An assessor looks it up.
+#[test]
+fn evidence_that_is_named_exists() {
+    judge(&evidence::missing(&Tree::here()), &[]);
 }
 
 /// Comments of Rust name headings of the spec.

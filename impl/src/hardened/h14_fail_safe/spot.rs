@@ -53,4 +53,4 @@ impl Spot {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

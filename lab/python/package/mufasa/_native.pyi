@@ -215,7 +215,8 @@ class Monitor:
     be above the period. ``sessions_before``: at least the last session of earlier lives, so that no
     message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a
     cycle may take, any time where it is not given; it has memory for all of the domain.
-    ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``).
+    ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
+    although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
 
     Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken``
     when the one before gave actions that nobody has looked at, and ends what was verified before. An
@@ -232,6 +233,7 @@ class Monitor:
         most_stations: int = 64,
         check_time: timedelta | None = None,
         step_ps: int = 750,
+        meant: Sequence[str] = (),
     ) -> Monitor: ...
     def set_route(self, cross_sections: Rows, *, closed: bool = False) -> None:
         """From now on the CAV follows this route (``CrossSection``), of which a copy is kept."""
@@ -256,6 +258,9 @@ class Monitor:
 
     def tick(self, now: Time) -> Actions:
         """Time passes: to be called in each period, before its cycle."""
+
+    def advice(self) -> str | None:
+        """What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``)."""
 
     def tracks(
         self,

@@ -59,13 +59,13 @@ extern "C" fn start() -> ! {
     host::exit(0)
 }
 
-/// What the monitor needs for 8 stations, 128 tracks, 256 detections and 1024 cross sections (docs/configuration.md):
+/// What the monitor needs for 8 stations, 128 tracks, 256 detections and 640 cross sections (docs/configuration.md):
 /// scratch, all that it is lent, the monitor itself; bytes.
 fn memory() -> alloc::string::String {
     let scratch = 128 * size_of::<Row>() + 260 * size_of::<Column>();
     let detections = Memory::detections_for(256) * size_of::<Detection>()
         + Memory::slots_for(256) * size_of::<Slot>();
-    let route = 1024 * size_of::<CrossSection>() + Block::needed(1024) * size_of::<Block>();
+    let route = 640 * size_of::<CrossSection>() + Block::needed(640) * size_of::<Block>();
     let lent = 8 * size_of::<StationRecord>() + scratch + detections + route;
     format!("{scratch} {lent} {}", size_of::<Monitor<'_>>())
 }

@@ -9,7 +9,11 @@ use crate::numbers::rounding::Real;
 use crate::random::Random;
 use crate::services::configuration::Configuration;
 
-fn standing(speed: f64, parameters: Parameters) -> Cycle<'static> {
+/// A CAV and nothing else.
+pub(in crate::hardened::h14_fail_safe) fn standing(
+    speed: f64,
+    parameters: Parameters,
+) -> Cycle<'static> {
     let (x, y, cos, sin) = (0.0, 0.0, 1.0, 0.0);
     Cycle {
         profile: Profile::HARDENED,

@@ -1,0 +1,46 @@
+//! How many places there are at most, by the places that there are.
+
+use std::vec::Vec;
+
+use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::spot::tests::standing;
+use crate::input::cycle::TrajectoryPoint;
+use crate::input::parameters::Parameters;
+use crate::random::Random;
+
+/// Pieces of whole numbers of places and others, and a node beside `s_stop` as near as that.
+#[test]
+fn there_are_no_more_places_than_are_counted_and_not_many_fewer() {
+    let mut random = Random::new(36);
+    let (mut near, mut straight) = (0, 0);
+    for _ in 0..20_000 {
+        let speed = [0.0, 1.0, 5.0, 30.0][random.below(4) as usize] + random.number(0.5).abs();
+        let mut cycle = standing(speed, Parameters::default());
+        cycle.ego.length = [4.8, 4.8, 0.25, 0.1, 0.01][random.below(5) as usize];
+        let s_stop = Path::new(Nodes::new(&cycle, &[])).times.s_stop.value();
+        let is_straight = random.below(2) == 0;
+        let (mut x, mut y) = (0.0, 0.0);
+        let points: Vec<_> = (0..random.below(20))
+            .map(|t_ns| {
+                x = match random.below(6) {
+                    0 => s_stop + random.number(1e-9),
+                    1 | 2 => x + 0.25 * (1 + random.below(20)) as f64,
+                    _ => x + random.number(3.0).abs(),
+                };
+                let [cos, sin] = if is_straight { [1.0, 0.0] } else { random.direction() };
+                if !is_straight {
+                    y += random.number(2.0);
+                }
+                TrajectoryPoint { t_ns: t_ns as i64, x, y, cos, sin }
+            })
+            .collect();
+        let nodes = Nodes::new(&cycle, &points);
+        let most = nodes.most_places();
+        let places: i64 = Path::new(nodes).pieces().map(|piece| piece.count()).sum();
+        assert!(places as f64 <= most, "{places}, {most}: {cycle:?}, {points:?}");
+        near += u32::from(places as f64 + 3.1 > most);
+        let pieces = nodes.lines().count() as f64;
+        straight += u32::from(is_straight && places as f64 + 20.0 + 2.0 * pieces > most);
+    }
+    assert!(near > 20 && straight > 2_000, "{near}, {straight}");
+}
