@@ -65,7 +65,7 @@ pub enum AmqpError {
     /// The address is none of a broker.
     #[error("{url:?} is no address of a broker; write amqp://USER:PASSWORD@HOST:PORT")]
     Url {
-        /// What was given.
+        /// What was given, without user and password.
         url: String,
     },
     /// An address with TLS.
@@ -90,7 +90,7 @@ impl Amqp {
             return Err(AmqpError::Tls);
         }
         let parsed = Url::parse(url).ok().filter(|it| it.scheme() == "amqp" && it.has_host());
-        let url = parsed.ok_or_else(|| AmqpError::Url { url: url.to_owned() })?;
+        let url = parsed.ok_or_else(|| AmqpError::Url { url: without_password(url) })?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(AmqpError::System)?;
         let inbox = Queue::default();
@@ -265,6 +265,11 @@ async fn receiving(
     }
 }
 
+/// What is before the last `@` is for nobody else to read.
+fn without_password(url: &str) -> String {
+    url.rsplit_once('@').map_or_else(|| url.to_owned(), |(_, host)| format!("...@{host}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -275,6 +280,9 @@ mod tests {
             let error = Amqp::new(url, Address::Vehicle(1)).unwrap_err();
             assert!(error.to_string().contains("no address of a broker"), "{url}");
         }
+        let with_password = Amqp::new("http://guest:secret@host", Address::Vehicle(1)).unwrap_err();
+        let words = with_password.to_string();
+        assert!(words.contains("...@host") && !words.contains("secret"), "{words}");
         let tls = Amqp::new("amqps://guest:secret@localhost", Address::Vehicle(1)).unwrap_err();
         assert!(tls.to_string().contains("has no TLS"), "{tls}");
     }

@@ -62,7 +62,8 @@ fn without_tests(text: &str) -> (String, Vec<String>) {
         }
         let item = lines.next().expect("an item after its attribute");
         let indent = &line[..line.len() - line.trim_start().len()];
-        if let Some(module) = item.trim().strip_prefix("mod ").and_then(|m| m.strip_suffix(';')) {
+        let item = item.trim().trim_start_matches("pub(super) ");
+        if let Some(module) = item.strip_prefix("mod ").and_then(|m| m.strip_suffix(';')) {
             modules.push(module.to_owned());
         } else if !item.ends_with(';') {
             let end = format!("{indent}}}");
@@ -102,10 +103,11 @@ fn table(text: &str, name: &str) -> Vec<String> {
 #[test]
 fn tests_are_told_from_what_is_shipped() {
     let text = "use a;\n#[cfg(test)]\nmod more;\nfn f() {} // g\n#[cfg(test)]\nextern crate std;\n\
+                #[cfg(test)]\npub(super) mod others;\n\
                 #[cfg(test)]\nmod tests {\n    fn g() {\n    }\n}\nfn h() {}\n";
     let (kept, modules) = without_tests(text);
     assert_eq!(kept, "use a;\nfn f() {} \nfn h() {}\n");
-    assert_eq!(modules, ["more"]);
+    assert_eq!(modules, ["more", "others"]);
     let shipped = shipped();
     let has = |name: &str| shipped.iter().any(|(file, _)| file == name);
     assert!(has("lib.rs") && has("stages/mod.rs") && has("offloading/requester/steps.rs"));
