@@ -21,8 +21,6 @@ pub mod obstacle;
 pub mod requester;
 pub mod roads;
 pub mod schedule;
-pub mod seen;
-pub mod sizes;
 pub mod steps;
 pub mod track_validation;
 pub mod tracks;
