@@ -173,7 +173,7 @@ impl Settings {
     }
 
     /// Whether what fits into memory for so many tracks, detections and cross sections is checked in time, with
-    /// 128 points, the places at 36 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
+    /// 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
     /// is too much.
     ///
     /// Errors: which of the lists is too long. Source: `spec/4-arithmetic.md#steps`.

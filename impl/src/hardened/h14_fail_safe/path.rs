@@ -61,14 +61,14 @@ impl<'c, 'a> Nodes<'c, 'a> {
         })
     }
 
-    /// How many places there are at most: of each piece as many as fit and one. Where rounding leaves open whether a
-    /// node is at `s_stop`, two pieces have a last place, and behind the last node are up to three places more.
+    /// How many places there are at most: of each piece as many as fit, the last one, and few more where
+    /// rounding leaves it open. What a piece costs by itself is within them.
     pub(crate) fn most_places(self) -> f64 {
         let places = |line: Line| {
             let [x, y] = minus(line.to, line.from).map(f64::abs);
-            larger(larger(x, y), line.advance) / self.d + 1.001
+            larger(larger(x, y), line.advance) / self.d + 5.0
         };
-        self.lines().map(places).sum::<f64>() + 4.0
+        self.lines().map(places).sum()
     }
 }
 
