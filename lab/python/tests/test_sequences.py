@@ -43,7 +43,9 @@ def left_out(record: dict[str, Any]) -> str | None:
 def started(record: dict[str, Any]) -> Monitor:
     period = timedelta(microseconds=record["period_ns"] // 1000)
     given = {key: record[key] for key in ("profile", "parameters")}
-    monitor = Monitor(period, sessions_before=record["last_session"], **given)
+    # A record has the whole domain.
+    meant = [*record["parameters"], "period"]
+    monitor = Monitor(period, sessions_before=record["last_session"], meant=meant, **given)
     monitor.set_route(record["route"]["stations"], closed=record["route"]["closed"])
     return monitor
 

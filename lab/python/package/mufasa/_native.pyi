@@ -260,7 +260,7 @@ class Monitor:
         """Time passes: to be called in each period, before its cycle."""
 
     def advice(self) -> str | None:
-        """What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``)."""
+        """What the calling program seems to get wrong, each told once (``spec/4-arithmetic.md#advice``); else ``None``."""
 
     def tracks(
         self,
