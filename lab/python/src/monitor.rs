@@ -31,20 +31,20 @@ use crate::verified::{Calls, VerifiedTracks, VerifiedTrajectory};
 /// No CAV meets more stations; memory of 5 MB.
 const MOST_STATIONS: usize = 65_536;
 
-/// The monitor of one CAV (``spec/monitor.md#monitor``): events go in, actions come out; remote data are
-/// handed in and are out of reach until ``cycle`` has checked them.
+/// The monitor of one CAV (``spec/monitor.md#monitor``): events go in, actions come out; remote data are handed in and
+/// are out of reach until ``cycle`` has checked them.
 ///
-/// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of
-/// single defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by
-/// default, has to be above the period. ``sessions_before``: at least the last session of earlier lives, so
-/// that no message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a
-/// cycle may take, any time where it is not given; it has memory for all of the domain.
-/// ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
-/// although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
+/// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single
+/// defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to be
+/// above the period. ``sessions_before``: at least the last session of earlier lives, so that no message of one fits.
+/// ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a cycle may take, any time
+/// where it is not given; it has memory for all of the domain. ``step_ps``: what a step costs here
+/// (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant although no road vehicle has such a
+/// value (``spec/4-arithmetic.md#usual-settings``).
 ///
-/// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when
-/// the one before gave actions that nobody has looked at, and ends what was verified before. An event that
-/// raises has changed nothing else. Not to be called by two threads at once.
+/// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when the one
+/// before gave actions that nobody has looked at, and ends what was verified before. An event that raises has changed
+/// nothing else. Not to be called by two threads at once.
 #[pyclass(module = "mufasa")]
 pub struct Monitor {
     place: Place,
@@ -199,9 +199,8 @@ impl Monitor {
     ) -> PyResult<Py<Actions>> {
         self.begin(py)?;
         let items = items::list(items, "tracks.items").map_err(invalid)?;
-        let (generated, stamp) = (generated.time, stamp.time);
-        let (station, session) = (station.0, session.0);
-        let message = Message { station, session, generated, stamp, items };
+        let (generated, stamp, id) = (generated.time, stamp.time, session.0);
+        let message = Message { station: station.0, session: id, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.tracks(now.time, message));
         let (to_do, why) = take(arrival.map_err(refused)?, &mut self.tracks);
         self.told(py, now.time, &to_do, why)
@@ -221,9 +220,8 @@ impl Monitor {
     ) -> PyResult<Py<Actions>> {
         self.begin(py)?;
         let items = items::list(points, "trajectory.points").map_err(invalid)?;
-        let (generated, stamp) = (generated.time, stamp.time);
-        let (station, session) = (station.0, session.0);
-        let message = Message { station, session, generated, stamp, items };
+        let (generated, stamp, id) = (generated.time, stamp.time, session.0);
+        let message = Message { station: station.0, session: id, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.trajectory(now.time, message));
         let (to_do, why) = take(arrival.map_err(refused)?, &mut self.trajectory);
         self.told(py, now.time, &to_do, why)
@@ -391,11 +389,7 @@ fn take<L>(
 }
 
 fn set(groups: &[OneOfGroups]) -> Groups {
-    let mut set = Groups::NONE;
-    for group in groups {
-        set = set.with(bridge::group_to_impl(group.0));
-    }
-    set
+    groups.iter().fold(Groups::NONE, |set, group| set.with(bridge::group_to_impl(group.0)))
 }
 
 fn refused(error: RequesterError) -> PyErr {
