@@ -176,7 +176,10 @@ int main(void) {
       brake_by = decision.brake_by;
     }
     /* What this program seems to get wrong: nothing. */
-    if (decision.advice != MUFASA_ADVICE_NONE) fprintf(stderr, "%s\n", mufasa_advice_text(decision.advice)), ++fallbacks;
+    if (decision.advice != MUFASA_ADVICE_NONE) {
+      fprintf(stderr, "%s\n", mufasa_advice_text(decision.advice));
+      return 1;
+    }
     take(&decision.actions);
   }
   printf("%zu of %d cycles offloaded, %zu fallback\n", offloaded, CYCLES, fallbacks);

@@ -33,8 +33,8 @@
 //!     columns: &mut vec![Column::default(); 68],
 //!     detections: &mut vec![Detection::default(); Memory::detections_for(64)],
 //!     slots: &mut vec![Slot::default(); Memory::slots_for(64)],
-//!     cross_sections: &mut vec![CrossSection::default(); 1000],
-//!     blocks: &mut vec![Block::default(); Block::needed(1000)],
+//!     cross_sections: &mut vec![CrossSection::default(); 640],
+//!     blocks: &mut vec![Block::default(); Block::needed(640)],
 //! };
 //! let mut monitor = Monitor::new(settings, memory)?;
 //! let at = |x| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
@@ -111,6 +111,8 @@
 //!             panic!("{report:?}, to be done: {actions:?}");
 //!         }
 //!     }
+//!     // What this program seems to get wrong: for a log that somebody reads.
+//!     assert_eq!(monitor.advice(), None);
 //! }
 //! assert_eq!(driven_as_verified, 20);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -105,7 +105,7 @@ impl Settings {
         bits().zip(rows).find(|(_, row)| is_named(row.field)).map_or(0, |(bit, _)| bit)
     }
 
-    fn rows(&self) -> [Unusual; 23] {
+    fn rows(&self) -> [Unusual; 24] {
         rows(&self.stages, &self.requester, self.period, self.step_ps)
     }
 

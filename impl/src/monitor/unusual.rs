@@ -38,7 +38,7 @@ pub(super) fn rows(
     requester: &requester::Parameters,
     period: Duration,
     step_ps: u64,
-) -> [Unusual; 23] {
+) -> [Unusual; 24] {
     const MS: f64 = 1e6;
     const S: f64 = 1e9;
     let row = |field, value, [least, most]: [f64; 2]| Unusual { field, value, least, most };
@@ -66,6 +66,7 @@ pub(super) fn rows(
         row("requester.l_max_ns", requester.l_max_ns as f64, [MS, S]),
         row("period", period.as_secs_f64(), [0.001, 1.0]),
         row("step_ps", step_ps as f64, [50.0, f64::INFINITY]),
+        row("requester.dt_max_ns", requester.dt_max_ns as f64, [MS, 5.0 * S]),
     ]
 }
 

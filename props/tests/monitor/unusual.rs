@@ -57,6 +57,7 @@ fn slips() -> Vec<(&'static str, Settings)> {
         it.requester.dt_max_ns = 1_500_000_000;
     });
     slip("step_ps", |it| it.step_ps = 0);
+    slip("requester.dt_max_ns", |it| it.requester.dt_max_ns = 120_000_000_000);
     slips
 }
 
