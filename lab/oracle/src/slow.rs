@@ -13,6 +13,7 @@ use mufasa::input::profile::Profile;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 use mufasa_model::input::cycle::Cycle;
+use mufasa_model::input::parameters::Parameters;
 use mufasa_props::bridge;
 use mufasa_records::{cycle_to_line, files, names};
 use rand::{RngExt, SeedableRng};
@@ -131,7 +132,9 @@ fn search(
 ) -> Result<Slowest, Stopped> {
     let random = &mut ChaCha8Rng::seed_from_u64(settings.seed);
     let workload = Workload::new(&SIZES[0], Variant::Pass);
-    let w1 = bridge::from_impl(&workload.cycle(profile, Configuration::AllRemote));
+    let mut w1 = bridge::from_impl(&workload.cycle(profile, Configuration::AllRemote));
+    // That of a vehicle, not of the race with libraries.
+    w1.parameters.work_limit = Parameters::default().work_limit;
     let start = instructions(std::slice::from_ref(&w1), what, &settings.out)?[0];
     let mut pool = vec![(start, 0, w1.clone())];
     for round in 1..=settings.rounds {
