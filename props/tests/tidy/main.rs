@@ -4,6 +4,7 @@
 
 mod circles;
 mod evidence;
+mod intervals;
 mod length;
 #[expect(dead_code, reason = "of it the names of items are asked for alone")]
 #[path = "../tree/lines.rs"]
@@ -133,6 +134,12 @@ fn no_link_leads_nowhere() {
 #[test]
 fn every_file_that_is_named_exists() {
     judge(&links::named(&Tree::here()), ELSEWHERE);
+}
+
+/// Nobody types an interval.
+#[test]
+fn intervals_are_those_of_their_counts() {
+    judge(&intervals::wrong(&Tree::here()), &[]);
 }
 
 /// An assessor looks it up.
