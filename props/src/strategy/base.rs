@@ -115,7 +115,8 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
 /// Constant speed along the frame's axis until `v_now` / `a_b`, in steps that H-11 accepts.
 pub fn straight(ego: &Ego, frame: Frame, now_ns: i64, parameters: &Parameters) -> Trajectory {
     let step_s = if ego.speed > 0.0 { (0.9 * ego.length / ego.speed).min(0.2) } else { 0.2 };
-    let dt_ns = to_ns(step_s) / 1_000_000 * 1_000_000;
+    // No whole number of us, so that a program that rounds times is elsewhere.
+    let dt_ns = (to_ns(step_s) / 1_000_000 * 1_000_000 - 123_457).max(1);
     let step_s = seconds(dt_ns);
     let mut points = Vec::new();
     let mut t_ns = now_ns;

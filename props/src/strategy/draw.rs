@@ -110,6 +110,18 @@ impl<'a> Draw<'a> {
         value.saturating_add(self.pick(&[0, 1, -1]))
     }
 
+    /// About as long, at times exactly: mostly up to 1 ms shorter, or longer where it is shorter than that, and no
+    /// whole number of us, so that a program that rounds times moves what moves.
+    pub fn odd_ns(&mut self, value: i64) -> i64 {
+        let (whole, rest) = (self.bits() % 1000, self.bits() % 999);
+        let off = i64::from(1000 * whole + rest + 1);
+        match self.below(4) {
+            0 => value,
+            _ if value < 1_000_000 => value.saturating_add(off),
+            _ => value - off,
+        }
+    }
+
     /// A direction: exact (multiples of 90 degrees, 3-4-5, 5-12-13), any angle, or one that is
     /// not quite a unit vector (within the domain's 1e-6).
     pub fn direction(&mut self) -> (f64, f64) {

@@ -11,8 +11,8 @@ use super::draw::Draw;
 pub fn ages(draw: &mut Draw<'_>) -> Vec<i64> {
     const MS: i64 = 1_000_000;
     let mut ages = match draw.below(6) {
-        0..=2 => vec![300 * MS, 500 * MS, 800 * MS],
-        3 => vec![300 * MS, 500 * MS],
+        0..=2 => [300, 500, 800].map(|ms| draw.odd_ns(ms * MS)).to_vec(),
+        3 => [300, 500].map(|ms| draw.odd_ns(ms * MS)).to_vec(),
         4 => vec![450 * MS, 550 * MS, draw.near_ns(1_000 * MS)],
         _ => vec![draw.near_ns(200 * MS), 500 * MS, draw.near_ns(1_000 * MS), 1_500 * MS],
     };
@@ -105,7 +105,8 @@ pub fn exact(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx, vy
     let seen_ns = cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns);
     let ages = draw.pick(&[&[500_000_000][..], &[300_000_000, 500_000_000, 800_000_000]]);
     let list = |dt_ns: &i64| {
-        let dt = seconds(*dt_ns);
+        let dt_ns = draw.odd_ns(*dt_ns);
+        let dt = seconds(dt_ns);
         let (x, y) = (x - vx * dt, y - vy * dt);
         let item = Detection { x, y, cos: 1.0, sin: 0.0, length: 4.5, width: 1.8 };
         DetectionList { stamp_ns: seen_ns - dt_ns, items: vec![item] }

@@ -197,7 +197,10 @@ fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let late = match draw.below(4) {
         0 => draw.near_ns(parameters.max_age_ns),
         1 => -draw.near_ns(parameters.max_age_ns),
-        _ => draw.pick(&[0, 20_000_000, -20_000_000, 100_000_000]),
+        _ => {
+            let late = draw.pick(&[0, 20_000_000, -20_000_000, 100_000_000]);
+            draw.odd_ns(late.max(0)) + late.min(0)
+        }
     };
     let limit = parameters.start_tolerance + cycle.ego.speed * seconds(late).max(0.0);
     let distance = if draw.one_in(4) { 0.0 } else { draw.near(limit) };

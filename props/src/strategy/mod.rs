@@ -21,6 +21,8 @@ pub mod obstacle;
 pub mod requester;
 pub mod roads;
 pub mod schedule;
+pub mod seen;
+pub mod sizes;
 pub mod steps;
 pub mod track_validation;
 pub mod tracks;

@@ -75,7 +75,8 @@ fn explain(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
         let (a, b) = draw.pick(&[(1.0, 0.0), (0.0, 1.0), (-0.6, 0.8)]);
         (velocity.0 + error * a, velocity.1 + error * b)
     };
-    let stamp_ns = cycle.now_ns - draw.pick(&[0, 50_000_000]);
+    let age = draw.pick(&[0, 50_000_000]);
+    let stamp_ns = cycle.now_ns - draw.odd_ns(age);
     let t = seconds(seen_ns - stamp_ns);
     let (length, width) = aimed.size;
     let (x, y) = (at.0 - vx * t, at.1 - vy * t);

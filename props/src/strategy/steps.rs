@@ -23,16 +23,24 @@ pub fn cycle(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.ego.speed = draw.pick(&[8.0, 2.0, 5.0]);
     let length = cycle.ego.length;
-    let mut dt_ns = 200_000_000;
+    let mut dt_ns = draw.odd_ns(200_000_000);
     let (mut along, mut aside, mut turned) = (0.1, 0.0, (1.0, 0.0));
-    match draw.below(7) {
+    match draw.below(8) {
         0 => dt_ns = draw.near_ns(cycle.parameters.step_max_ns),
         1 => along = draw.near(length),
         2 => {
             cycle.parameters.v_max = draw.pick(&[4.0, 2.5, 5.0]);
-            along = draw.near(cycle.parameters.v_max * 0.2);
+            along = draw.near(cycle.parameters.v_max * seconds(dt_ns));
         }
-        3 => along = -draw.near(0.02),
+        3 | 7 => {
+            // Aside, so that the first heading or the second decides.
+            let turn: f64 = draw.pick(&[0.0, 0.1, -0.1]);
+            turned = (turn.cos(), turn.sin());
+            let limit = draw.near(0.1 * seconds(dt_ns));
+            let is_first = draw.one_in(2);
+            aside = turn * if is_first { 1.2 } else { -0.4 };
+            along = if is_first { -limit } else { (-limit - aside * turned.1) / turned.0 };
+        }
         4 => {
             // Only the reference of a long vehicle goes so far aside: half of it ahead of the
             // rear axle, in the sharpest turn.
@@ -48,7 +56,7 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             along = draw.pick(&[0.5, 1.0, 1.5]);
             let side = draw.pick(&[1.0, -1.0]);
             let (sum, sine) = (1.0 + turned.0, turned.1);
-            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.104;
+            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.1 + 0.02 * seconds(dt_ns);
             aside = (along * sine + 0.5 * length * sine - side * slack) / (sum + side * 0.1 * sine);
             aside = draw.near(aside);
         }
@@ -78,6 +86,7 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 fn turn_of_a_step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.ego.speed = draw.pick(&[2.0, 5.0]);
     let dt_ns = draw.pick(&[50_000_000, 100_000_000, 200_000_000]);
+    let dt_ns = draw.odd_ns(dt_ns);
     let length = draw.pick(&[0.0, 0.1, 0.3]);
     let sine: f64 = draw.near(0.1 + 0.1 * seconds(dt_ns) + 0.5 * length);
     let angle = sine.asin() * draw.pick(&[1.0, -1.0]);
@@ -105,6 +114,7 @@ fn slide(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.ego.speed = draw.pick(&[2.0, 5.0]);
     let steps = draw.between(2, 5);
     let (dt_ns, turn) = (draw.pick(&[50_000_000, 100_000_000]), draw.pick(&[0.0, 0.02, 0.05]));
+    let dt_ns = draw.odd_ns(dt_ns);
     let (along, side) = (draw.pick(&[0.2, 0.5]), draw.pick(&[1.0, -1.0]));
     let half_length = 0.5 * cycle.ego.length;
     let (mut at, mut before) = ((0.0, 0.0), (1.0_f64, 0.0_f64));
@@ -146,6 +156,7 @@ fn turn(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     // Turning back takes three steps of 30 degrees.
     let (steps, step_ns) =
         if aim == 0 { (3, 200_000_000) } else { (draw.between(2, 5), 100_000_000) };
+    let step_ns = draw.odd_ns(step_ns);
     let dt = seconds(step_ns);
     let t = dt * steps as f64;
     let speed = match aim {

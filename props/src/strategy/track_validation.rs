@@ -21,9 +21,9 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match (draw.below(8), profile) {
         (0 | 1, _) => mean_to_threshold(draw, frame, &mut cycle),
         (2, _) | (3 | 4, Profile::PAPER) => threshold_to_mean(draw, frame, &mut cycle),
-        (3 | 4, _) => pair_limit(draw, frame, &mut cycle),
+        (3, _) => pair_limit(draw, frame, &mut cycle),
         (5, _) | (6, Profile::PAPER) => radius(draw, frame, &mut cycle),
-        (6, _) => left_out(draw, frame, &mut cycle),
+        (4 | 6, _) => left_out(draw, frame, &mut cycle),
         (_, _) => anything(draw, frame, &mut cycle),
     }
     cycle
@@ -106,9 +106,9 @@ fn radius(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 /// not more than the budget; the mean of the others is near `theta_tr`.
 fn left_out(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let n = draw.between(1, 4);
-    cycle.parameters.miss_budget = draw.pick(&[4, 1, 2, 0]);
+    cycle.parameters.miss_budget = draw.pick(&[4, 1, 2, 0, 1]);
     let ages = [draw.pick(&[0, 50_000_000]), draw.pick(&[0, 30_000_000])];
-    let [tracks_ns, seen_ns] = ages.map(|age| cycle.now_ns - age);
+    let [tracks_ns, seen_ns] = ages.map(|age| cycle.now_ns - draw.odd_ns(age));
     let t = seconds(seen_ns - tracks_ns);
     let (mut tracks, mut seen) = (Vec::new(), vec![detection(frame, (95.0, 0.0))]);
     for index in 0..n {
@@ -150,6 +150,7 @@ fn fill(
     detections: &[Place],
 ) {
     let old = draw.pick(&[0, 10_000_000, 40_000_000_000]);
+    let old = draw.odd_ns(old);
     let items = tracks.iter().zip(1..).map(|(place, id)| track(frame, *place, id)).collect();
     cycle.tracks = Some(TrackList { stamp_ns: cycle.now_ns - old, items });
     let age = if draw.one_in(8) { draw.near_ns(cycle.parameters.max_age_ns) } else { 0 };

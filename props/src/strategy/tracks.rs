@@ -22,6 +22,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let horizon = obstacle::horizon_of_tracks(&cycle);
     let found = obstacle::decisive(draw, &mut cycle, horizon);
     let age = draw.pick(&[0, 30_000_000, 100_000_000]);
+    let age = draw.odd_ns(age);
     let stamp_ns = cycle.now_ns - age;
     let mut items = Vec::new();
     if draw.one_in(4) {
@@ -36,7 +37,8 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     if configuration == Configuration::AllRemote && profile == Profile::HARDENED {
         if draw.one_in(2) {
             // A detection at every place: stage i runs and, when none is far off, passes.
-            let seen_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
+            let age = draw.pick(&[0, 20_000_000]);
+            let seen_ns = cycle.now_ns - draw.odd_ns(age);
             cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items: Vec::new() });
             let tracks = cycle.tracks.iter().flat_map(|list| &list.items);
             let seen = |track| history::item(track, history::place(&cycle, track).0);
@@ -67,6 +69,7 @@ pub fn before(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     } else {
         draw.pick(&[600_000_000, 100_000_000, 3_000_000_000])
     };
+    let earlier_ns = draw.odd_ns(earlier_ns);
     for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
         point.t_ns -= earlier_ns;
     }

@@ -15,11 +15,13 @@ struct Given {
     lead_speed: f64,
     /// Ages of detections, lead and grid.
     ages_ns: [i64; 3],
+    is_ticked: bool,
 }
 
 impl Given {
     fn right(now_ns: i64) -> Self {
-        Self { now_ns, world: World::at(now_ns), gap: GAP, lead_speed: 5.0, ages_ns: [20 * MS; 3] }
+        let (world, ages_ns) = (World::at(now_ns), [20 * MS; 3]);
+        Self { now_ns, world, gap: GAP, lead_speed: 5.0, ages_ns, is_ticked: true }
     }
 }
 
@@ -40,7 +42,9 @@ fn told(times: impl Iterator<Item = i64>, slip: fn(&mut Given)) -> Vec<Advice> {
             .detections(seen, &given.world.detections)
             .lead(lead, Gap::between_bumpers(given.gap), given.lead_speed)
             .grid(mapped, map);
-        let _actions = monitor.tick(at(now_ns));
+        if given.is_ticked {
+            let _actions = monitor.tick(at(now_ns));
+        }
         assert!(matches!(monitor.cycle(&inputs).0, Decision::Safe { .. }), "{now_ns}");
         told.extend(monitor.advice());
         assert_eq!(monitor.advice(), None, "one a cycle, and each once");
@@ -103,6 +107,13 @@ fn what_is_never_current_is_told_once() {
     assert_eq!(drive(|it| it.ages_ns[1] = 101 * MS), [Advice::LeadNotCurrent]);
     assert_eq!(drive(|it| it.ages_ns[1] = -MS), [Advice::LeadNotCurrent]);
     assert_eq!(drive(|it| it.ages_ns[2] = 5000 * MS), [Advice::GridNotCurrent]);
+}
+
+/// IMPL-16, IMPL-17: a loop that never ticks; one that ticks every second cycle is told nothing.
+#[test]
+fn a_loop_without_ticks_is_told_once() {
+    assert_eq!(drive(|it| it.is_ticked = false), [Advice::NoTick]);
+    assert_eq!(drive(|it| it.is_ticked = it.now_ns % (200 * MS) == 0), []);
 }
 
 /// IMPL-16, IMPL-17, IMPL-18: km/h, and a speed relative to the CAV; each cycle stays safe.

@@ -5,12 +5,19 @@ use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{Reading, Rule};
 use mufasa_props::differential::{agree, hold, near_threshold, same_witness};
 use mufasa_props::strategy::draw::Draw;
-use mufasa_props::strategy::fail_safe;
+use mufasa_props::strategy::{fail_safe, seen};
 
 #[test]
 fn hardened() {
     agree("H-14", Profile::HARDENED, fail_safe::cycle, near_threshold)
         .assert_aimed(&["iv", "safe"]);
+}
+
+/// A track whose word counts, or not, by one term of `spec/hardened/what-the-cav-saw.md`.
+#[test]
+fn what_the_cav_saw() {
+    let tally = agree("what the CAV saw", Profile::HARDENED, seen::cycle, near_threshold);
+    assert!(["iv", "safe"].iter().all(|verdict| 4 * tally.count(verdict) > tally.cases), "{tally}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::strategy::draw::{Draw, long_tape, longest_tape, tape};
 use mufasa_props::strategy::{
-    composition, input, monitor, requester, roads, schedule, tracks, whole,
+    composition, input, monitor, requester, roads, schedule, seen, sizes, tracks, whole,
 };
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -19,6 +19,13 @@ use mufasa_records::{Sequence, Trace};
 const NEIGHBOURS: u64 = 4;
 const SUCCESSIONS: u64 = 16;
 
+/// One cycle in so many is of any size up to that of the domain: of the paper profile, and of the hardened one, whose
+/// exact model takes longer.
+const LARGE: [usize; 2] = [32, 256];
+
+/// So many cycles are looked through for one that can be as large as there may be.
+const TRIES: usize = 1000;
+
 /// Where the cases of a campaign come from.
 #[derive(Clone, Debug)]
 pub struct Generator {
@@ -31,9 +38,23 @@ pub struct Generator {
 }
 
 impl Generator {
-    /// Case number `case`.
+    /// Case number `case`. The first cycles are the largest: as many points, tracks and so on as there may be.
     pub fn question(&self, case: u64) -> Question {
-        self.read(self.kind(case), &self.tape(case))
+        let question = self.read(self.kind(case), &self.tape(case));
+        let part = usize::try_from(case).ok().and_then(|case| sizes::Part::ALL.get(case));
+        match (question, part) {
+            (Question::Cycle(_), Some(part)) => self.largest(case, *part),
+            (question, _) => question,
+        }
+    }
+
+    /// The first cycle from this case on that can have so much.
+    fn largest(&self, case: u64, part: sizes::Part) -> Question {
+        let cycles = (case..).map(|case| usual(&mut Draw::new(&self.tape(case)), self.profile));
+        let found = cycles.take(TRIES).find(|cycle| part.fits(cycle));
+        let mut cycle = found.unwrap_or_else(|| usual(&mut Draw::new(&[]), self.profile));
+        sizes::largest(&mut cycle, part);
+        Question::Cycle(Box::new(cycle))
     }
 
     /// The kind of a case: of the usual four, eight of eleven are cycles.
@@ -119,9 +140,19 @@ impl Generator {
 }
 
 /// A cycle at the threshold of a stage, of the schedule, or of what is valid; on a road that bends
-/// or closes, before the stamp of its tracks, or on one of the roads that are alike.
+/// or closes, before the stamp of its tracks, or on one of the roads that are alike; at times large.
 fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = usual(draw, profile);
+    let [paper, hardened] = LARGE;
+    if draw.one_in(if profile == Profile::PAPER { paper } else { hardened }) {
+        sizes::grow(draw, &mut cycle);
+    }
+    cycle
+}
+
+fn usual(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match draw.below(20) {
+        14 if profile == Profile::HARDENED => seen::cycle(draw, profile),
         0..=14 => whole::cycle(draw, profile),
         15 => schedule::cycle(draw, profile),
         16 | 17 => input::cycle(draw, profile),
@@ -160,6 +191,7 @@ pub fn mix(value: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use mufasa_model::cycle::check;
+    use mufasa_model::input::cycle::DetectionList;
     use mufasa_model::report::{Outcome, Reading};
 
     use super::*;
@@ -220,6 +252,80 @@ mod tests {
             let count = (0..1000).filter(begins_before).count();
             assert!(count > 3, "{profile:?}: {count}");
         }
+    }
+
+    #[test]
+    fn the_first_cycles_are_as_large_as_the_domain_allows_and_decided() {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
+            let generator = Generator { seed: 3, profile, kinds: vec![Kind::Cycle] };
+            let cycles = (0..6).map(|case| match generator.question(case) {
+                Question::Cycle(cycle) => cycle,
+                other => panic!("{other:?}"),
+            });
+            let [points, tracks, detections, history, sections, cells]: [Box<Cycle>; 6] =
+                cycles.collect::<Vec<_>>().try_into().expect("six");
+            let count = |list: &Option<DetectionList>| list.as_ref().map_or(0, |it| it.items.len());
+            assert_eq!(points.trajectory.as_ref().map_or(0, |it| it.points.len()), 1024);
+            assert_eq!(tracks.tracks.as_ref().map_or(0, |it| it.items.len()), 1024);
+            assert_eq!(count(&detections.detections), 2048);
+            assert!(history.detection_history.iter().any(|it| it.items.len() == 2048));
+            assert_eq!(sections.route.cross_sections.len(), 8192);
+            assert!(cells.grid.is_some_and(|grid| grid.width * grid.height > 1 << 19));
+            for cycle in [points, tracks, detections, history, sections] {
+                assert!(check(&cycle, Reading::Exact).is_ok(), "{cycle:?}");
+            }
+        }
+    }
+
+    /// A change that a program makes without saying so, and how many of the first cycles show it.
+    fn shown(profile: Profile, change: impl Fn(&mut Cycle) -> bool) -> usize {
+        let generator = Generator { seed: 0, profile, kinds: vec![Kind::Cycle] };
+        let is_shown = |case: &u64| {
+            let Question::Cycle(cycle) = generator.question(*case) else { return false };
+            let mut changed = cycle.clone();
+            let verdict = |cycle| check(cycle, Reading::Exact).map(|it| it.failed_stage);
+            change(&mut changed) && verdict(&changed) != verdict(&cycle)
+        };
+        (0..10_000).filter(is_shown).count()
+    }
+
+    #[test]
+    fn a_time_of_prediction_in_whole_ms_or_us_changes_verdicts() {
+        for unit_ns in [1_000_000, 1_000] {
+            let count = shown(Profile::PAPER, |cycle| {
+                let (Some(tracks), Some(trajectory)) = (&mut cycle.tracks, &cycle.trajectory)
+                else {
+                    return false;
+                };
+                let Some(first) = trajectory.points.first() else { return false };
+                let t_ns = i128::from(first.t_ns) - i128::from(tracks.stamp_ns);
+                tracks.stamp_ns += i64::try_from(t_ns % unit_ns).unwrap_or(0);
+                true
+            });
+            assert!(count > 10, "{unit_ns} ns: {count}");
+        }
+    }
+
+    #[test]
+    fn what_decides_lies_behind_the_first_hundred_too() {
+        let tracks = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.tracks else { return false };
+            list.items.len() > 100 && list.items.drain(100..).len() > 0
+        });
+        let detections = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.detections else { return false };
+            list.items.len() > 100 && list.items.drain(100..).len() > 0
+        });
+        let points = shown(Profile::PAPER, |cycle| {
+            let Some(list) = &mut cycle.trajectory else { return false };
+            list.points.len() > 200 && list.points.drain(200..).len() > 0
+        });
+        let sections = shown(Profile::PAPER, |cycle| {
+            let sections = &mut cycle.route.cross_sections;
+            sections.len() > 1000 && sections.drain(1000..).len() > 0
+        });
+        let all = [tracks, detections, points, sections];
+        assert!(all.iter().all(|count| *count > 0), "{all:?}");
     }
 
     #[test]

@@ -191,7 +191,7 @@ mod tests {
         });
         let named: Vec<&str> = bugs.iter().filter_map(|bug| bug["name"].as_str()).collect();
         assert_eq!(named, of_list.collect::<Vec<_>>());
-        assert_eq!(named.len(), 46);
+        assert_eq!(named.len(), 65);
         let of_monitors =
             list.lines().filter_map(|it| it.strip_prefix("    monitor(\"")?.split('"').next());
         let of_monitors: Vec<&str> = of_monitors.collect();

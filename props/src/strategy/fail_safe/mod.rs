@@ -67,6 +67,7 @@ pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
     // No other stage looks at it.
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
+    let age_ns = draw.odd_ns(age_ns);
     let (_, find) = AIMS[aim];
     let aimed = find(draw, cycle, age_ns);
     if draw.one_in(3) {
@@ -95,6 +96,9 @@ fn shaped(
 fn body(draw: &mut Draw<'_>, cycle: &Cycle) -> Body {
     let (length, width) =
         draw.pick(&[(4.5, 1.8), (0.6, 0.6), (0.01, 0.01), (12.0, 2.5), (1.0, 3.0)]);
+    // Between places that are too far apart for a short CAV nothing larger fits.
+    let is_small = cycle.ego.length < 0.25 && draw.one_in(2);
+    let (length, width) = if is_small { (0.01, 0.01) } else { (length, width) };
     let road = shape::frame(cycle);
     let turned = draw.direction();
     let (cos, sin) = unit(road.turn(if draw.one_in(2) { turned } else { (1.0, 0.0) }));

@@ -88,12 +88,13 @@ fn resize(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let (length, width, speed) = draw.pick(&[
         (0.01, 0.01, 0.3),
         (0.05, 0.4, 1.0),
+        (0.1, 0.2, 5.0),
         (100.0, 100.0, 8.0),
         (100.0, 0.01, 2.0),
         (0.3, 20.0, 5.0),
     ]);
     (cycle.ego.length, cycle.ego.width, cycle.ego.speed) = (length, width, speed);
-    if length < 0.1 {
+    if length < 0.2 {
         cycle.ego.center_offset = 0.0;
     }
     points(cycle).truncate(1);

@@ -62,7 +62,8 @@ fn behind_cell(draw: &mut Draw<'_>, plan: &Plan, grid: &Grid, side: &Side) -> De
 
 /// Mostly stage iv runs and finds nothing.
 fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, detection: Detection) {
-    let stamp_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
+    let age = draw.pick(&[0, 20_000_000]);
+    let stamp_ns = cycle.now_ns - draw.odd_ns(age);
     // Without a detection the disks alone count.
     let items = match draw.below(16) {
         0 => Vec::new(),
