@@ -252,11 +252,13 @@ static void events_that_are_not_for_the_caller(void) {
   EXPECT(actions.dropped == MUFASA_DROP_REASON_LATE);
 }
 
-static void is_about(const struct MufasaMonitorSettings *it, MufasaStatus status, const char *field) {
-  struct MufasaInvalidInput problem;
+static struct MufasaSettingsProblem is_about(const struct MufasaMonitorSettings *it, MufasaStatus status,
+                                             const char *field) {
+  struct MufasaSettingsProblem problem;
   EXPECT(mufasa_monitor_settings_problem(it, &problem) == status);
   EXPECT(strcmp(problem.field, field) == 0);
   EXPECT((strlen(problem.message) > 0) == (status != MUFASA_STATUS_OK));
+  return problem;
 }
 
 /* The field that is wrong, and the status of init. */
@@ -288,7 +290,8 @@ static void a_status_of_the_settings_has_a_field(void) {
   it.stages.tau = 0.02;
   is_about(&it, MUFASA_STATUS_OK, "");
   it.profile = MUFASA_PROFILE_HARDENED;
-  is_about(&it, MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD, "parameters.tau");
+  struct MufasaSettingsProblem problem = is_about(&it, MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD, "parameters.tau");
+  EXPECT(problem.value == 0.02 && problem.least == 0.05 && problem.most != problem.most);
   it = settings();
   it.check_time_ns = -1;
   is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "check_time_ns");
@@ -296,7 +299,11 @@ static void a_status_of_the_settings_has_a_field(void) {
   it = mufasa_monitor_settings_default(50 * MS);
   is_about(&it, MUFASA_STATUS_OK, "");
   it.most_cross_sections = 4096;
-  is_about(&it, MUFASA_STATUS_TOO_SLOW, "most_cross_sections");
+  problem = is_about(&it, MUFASA_STATUS_TOO_SLOW, "most_cross_sections");
+  EXPECT(problem.value == 4096 && problem.most >= 640 && problem.most < 4096);
+  it.most_cross_sections = (uint32_t)problem.most;
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it.most_cross_sections = 4096;
   it.check_time_ns = INT64_MAX;
   is_about(&it, MUFASA_STATUS_OK, "");
   it = settings();
@@ -305,7 +312,8 @@ static void a_status_of_the_settings_has_a_field(void) {
   EXPECT(mufasa_monitor_calibrate() > 10000);
   it = settings();
   it.stages.a_b = 80;
-  is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  problem = is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
+  EXPECT(problem.value == 80 && 0 < problem.least && problem.least < problem.most && problem.most < 80);
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_UNUSUAL && monitor == NULL);
   it.meant = mufasa_monitor_meant("stages.tau") + mufasa_monitor_meant("no such") + mufasa_monitor_meant(NULL);
   is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");
@@ -315,10 +323,10 @@ static void a_status_of_the_settings_has_a_field(void) {
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
-  struct MufasaInvalidInput problem;
   EXPECT(mufasa_monitor_settings_problem(NULL, &problem) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_settings_problem(&it, NULL) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_monitor_route_problem(NULL, &problem) == MUFASA_STATUS_NULL_POINTER);
+  struct MufasaInvalidInput of_route;
+  EXPECT(mufasa_monitor_route_problem(NULL, &of_route) == MUFASA_STATUS_NULL_POINTER);
 }
 
 static void settings_that_no_monitor_can_keep(void) {

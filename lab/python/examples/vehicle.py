@@ -81,6 +81,9 @@ def main() -> None:
             local_trajectory=Trajectory(now, own_plan),
         )
         station.take(decision.actions)
+        # What contradicts itself, told once: for a log that somebody reads.
+        if (advice := monitor.advice()) is not None:
+            print("advice:", advice)
         if decision.safe and decision.trajectory is not None:
             driven.append(follow(decision.trajectory))
         else:
