@@ -6,6 +6,7 @@ mod circles;
 mod evidence;
 mod intervals;
 mod length;
+mod lifted;
 #[expect(dead_code, reason = "of it the names of items are asked for alone")]
 #[path = "../tree/lines.rs"]
 mod lines;
@@ -146,6 +147,12 @@ fn intervals_are_those_of_their_counts() {
 #[test]
 fn evidence_that_is_named_exists() {
     judge(&evidence::missing(&Tree::here()), &[]);
+}
+
+/// A deviation from the guideline that nobody reads of is none that was decided.
+#[test]
+fn each_lifted_lint_is_on_the_page_of_the_guideline() {
+    judge(&lifted::not_listed(&Tree::here()), &[]);
 }
 
 /// Comments of Rust name headings of the spec.
