@@ -393,6 +393,6 @@ fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
     };
     let MufasaMonitor { monitor, verdicts, tracks, trajectory, .. } = monitor;
     let inputs = with_remote(Inputs::new(now.time(), nowhere), tracks, trajectory);
-    let actions = verdicts.of_cycle(monitor, &inputs).actions;
-    MufasaDecision { actions, ..nothing_decided() }
+    let MufasaDecision { actions, advice, .. } = verdicts.of_cycle(monitor, &inputs);
+    MufasaDecision { actions, advice, ..nothing_decided() }
 }

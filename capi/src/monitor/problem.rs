@@ -125,7 +125,10 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         }
         MonitorError::SessionsBefore { sessions_before } => MufasaSettingsProblem {
             value: number(sessions_before),
-            ..told("sessions_before", "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0")
+            ..told(
+                "sessions_before",
+                "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0",
+            )
         },
         MonitorError::Stall { .. } => told("stall", ""),
         MonitorError::Memory { field, .. } => told(field, AT_LEAST_1),

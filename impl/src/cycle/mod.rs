@@ -60,6 +60,17 @@ pub fn check_with<'a>(
     indexes: &Indexes<'_, 'a>,
     scratch: &mut Scratch<'_>,
 ) -> Result<Report, InvalidInput> {
+    check_unless(None, cycle, indexes, scratch)
+}
+
+/// The same, unless the cycle may be late: then this is the error of a cycle whose input is valid. Source:
+/// `spec/4-arithmetic.md#conformance-of-an-implementation`.
+pub(crate) fn check_unless<'a>(
+    late: Option<InvalidInput>,
+    cycle: &Cycle<'a>,
+    indexes: &Indexes<'_, 'a>,
+    scratch: &mut Scratch<'_>,
+) -> Result<Report, InvalidInput> {
     let indexes = of_this_route(cycle, indexes);
     match indexes.validate(cycle) {
         // INPUT-05
@@ -77,6 +88,8 @@ pub fn check_with<'a>(
         }
         // INPUT-07
         Ok(usable) => {
+            // IMPL-13
+            late.map_or(Ok(()), Err)?;
             // IMPL-09
             scratch.fits(cycle)?;
             Ok(run(&ValidCycle::of(cycle, usable, indexes), scratch))

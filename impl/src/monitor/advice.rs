@@ -167,8 +167,12 @@ impl Watch {
     )]
     fn interval(&mut self, now_ns: i64, period_ns: i64) -> i32 {
         let now = (now_ns >> 16) as u32;
-        let units = now.wrapping_sub(self.last) as i32;
-        self.last = now;
+        let last = core::mem::replace(&mut self.last, now);
+        // The first cycle has none before it.
+        if last == 0 {
+            return 0;
+        }
+        let units = now.wrapping_sub(last) as i32;
         let since_ns = i64::from(units) << 16;
         self.off = if since_ns.saturating_mul(2) > period_ns.saturating_mul(3) {
             self.off.max(0).saturating_add(1)

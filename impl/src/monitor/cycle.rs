@@ -8,7 +8,7 @@ use super::released::{Released, if_kept, is_last_used, is_ticked};
 use super::settings::{MonitorError, Settings};
 use super::stall::Stall;
 use super::time::Time;
-use crate::cycle::check_with;
+use crate::cycle::check_unless;
 use crate::cycle::steps::{Counts, LISTS};
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
@@ -224,46 +224,42 @@ impl Monitor<'_> {
         // MON-16, MON-17
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
             let indexes = Indexes { route, detections: &[] };
-            in_time(&self.settings, &self.in_time, &cycle)?;
-            if tracks_fit {
-                return check_with(&cycle, &indexes, scratch);
-            }
-            let report = check_with(&cycle, &indexes, scratch);
-            if_kept(&report, [true, false])?;
+            let late = too_long(&self.settings, &self.in_time, &cycle);
+            let report = check_unless(late, &cycle, &indexes, scratch);
+            if_kept(&report, [true, tracks_fit])?;
             return report;
         };
         let holds = self.history.holds(&list);
         let selection = self.history.select(&list);
         cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
-        in_time(&self.settings, &self.in_time, &cycle)?;
-        let report =
-            check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch);
-        if_kept(&report, [holds, tracks_fit])?;
+        let late = too_long(&self.settings, &self.in_time, &cycle);
+        let indexes = Indexes { route, detections: &selection.indexes };
+        let report = check_unless(late, &cycle, &indexes, scratch);
+        let kept = if_kept(&report, [holds, tracks_fit]);
+        // A list that does not fit is never kept.
+        let is_valid = kept.is_ok() || (holds && late.is_some_and(|it| kept == Err(it)));
         let [own, ..] = selection.indexes;
         let shape = own.shape();
         // MON-12
-        if keeps && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
+        if keeps && is_valid && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
             self.history.keep(&list, shape);
         }
+        kept?;
         report
     }
 }
 
-/// Whether the cycle is checked in time, whatever it holds (`spec/4-arithmetic.md#steps`): what is no longer
-/// than `known` is.
-///
-/// Errors: the list that is too long.
-fn in_time(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Result<(), InvalidInput> {
+/// The list that is too long for the cycle to be checked in time, whatever it holds
+/// (`spec/4-arithmetic.md#steps`): what is no longer than `known` is not.
+fn too_long(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Option<InvalidInput> {
     let counts = Counts::of(cycle);
     if counts.is_within(known) {
-        return Ok(());
+        return None;
     }
     // IMPL-13
-    settings.check_steps(&counts, &LISTS).map_err(|error| {
-        let field =
-            if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
-        InvalidInput { field, index: None, problem: Problem::TooMany }
-    })
+    let error = settings.check_steps(&counts, &LISTS).err()?;
+    let field = if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
+    Some(InvalidInput { field, index: None, problem: Problem::TooMany })
 }
 
 /// The problem; of a route that was never set that, and not that it has too few cross sections.

@@ -100,6 +100,17 @@ fn another_period_than_declared_is_told_once() {
     );
 }
 
+/// IMPL-16: long and short intervals in turn have no period; four long ones and one short one do not add up, and the first
+/// cycle has no interval.
+#[test]
+fn intervals_that_do_not_agree_are_no_other_period() {
+    let mixed = (0..80).map(|i| (200 * i - 150 * (i / 5)) * MS);
+    assert_eq!(told(mixed, |_| {}), []);
+    let late = |cycles: i64| (0..cycles).map(|i| (60_000 + 200 * i) * MS);
+    assert_eq!(told(late(12), |_| {}), []);
+    assert_eq!(told(late(13), |_| {}), [Advice::Period]);
+}
+
 /// IMPL-16, IMPL-17: stamps of another clock, for example, so that nothing is current.
 #[test]
 fn what_is_never_current_is_told_once() {

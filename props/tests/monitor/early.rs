@@ -19,7 +19,7 @@ fn look(monitor: &mut Monitor<'_>, now_ns: i64, age_ns: Option<i64>) {
 }
 
 /// How many requests a tick sends.
-fn asked(monitor: &mut Monitor<'_>, now_ns: i64) -> usize {
+pub fn asked(monitor: &mut Monitor<'_>, now_ns: i64) -> usize {
     let mut station = Station::default();
     station.take(&monitor.offer(at(now_ns), 1, Groups::ALL).expect("a station"));
     station.take(&monitor.tick(at(now_ns)));

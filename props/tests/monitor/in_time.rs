@@ -11,6 +11,7 @@ use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration;
 use mufasa_props::lent::Lent;
 
+use super::early::asked;
 use super::kit::{MS, World, at, road, route};
 
 /// With steps of 1 ns.
@@ -117,33 +118,64 @@ fn what_just_fits_is_taken_and_one_more_refused() {
 #[test]
 fn a_cycle_that_may_be_late_is_refused() {
     let (world, road, bits) = (World::at(0), road(), [0; 8]);
-    let points: Vec<_> = (0..1024_i64)
-        .map(|i| TrajectoryPoint { t_ns: i * MS, x: world.ego.x, y: 0.0, cos: 1.0, sin: 0.0 })
-        .collect();
-    let map = GridMap {
-        x: 0.0,
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        resolution: 0.01,
-        width: 8,
-        height: 8,
-        occupied: &bits,
-        unknown: None,
-    };
+    let points = still(&world);
     let now = at(0);
-    let inputs = Inputs::new(now, world.ego).local_trajectory(now, &points).grid(now, map);
+    let inputs =
+        Inputs::new(now, world.ego).local_trajectory(now, &points).grid(now, map(0.01, &bits));
     let cycle = alone(&world, &road, &points, grid(0.01, &bits));
     let total = most_steps(&Counts::of(&cycle), &cycle.parameters).total();
     for (steps, is_late) in [(total, false), (total - 1, true)] {
         let mut lent = memory([8, 8, road.len()]);
         let mut monitor = Monitor::new(within(steps), lent.memory()).expect("in time");
         monitor.set_route(&route(&road)).expect("a route");
-        let problem = match monitor.cycle(&inputs).0 {
-            Decision::Unsafe { report: Err(problem), .. } => Some(problem),
-            Decision::Unsafe { report: Ok(_), .. } | Decision::Safe { .. } => None,
-        };
-        let late = InvalidInput { field: "cells", index: None, problem: Problem::TooMany };
-        assert_eq!(problem, is_late.then_some(late));
+        assert_eq!(problem(&mut monitor, &inputs), is_late.then_some(LATE));
+    }
+}
+
+/// IMPL-13, INPUT-05, MON-12: what is invalid is named before what is too long, and the detections of a late cycle are
+/// kept: half a second later a station is asked.
+#[test]
+fn a_cycle_that_may_be_late_is_a_cycle_all_the_same() {
+    let (world, road, bits) = (World::at(0), road(), [0; 8]);
+    let points = still(&world);
+    let now = at(0);
+    let inputs = |resolution: f64| {
+        let inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+        inputs.local_trajectory(now, &points).grid(now, map(resolution, &bits))
+    };
+    let lent = [8, 8, road.len()];
+    let Err(MonitorError::TooSlow { steps, .. }) = within(1).check_lists(lent[0], lent[1], lent[2])
+    else {
+        panic!("one step is enough");
+    };
+    let mut settings = within(steps).meaning("t_wait_ns");
+    settings.requester.t_wait_ns = 0;
+    for (resolution, field, requests) in [(0.01, "cells", 2), (0.0, "grid.resolution", 0)] {
+        let mut lent = memory(lent);
+        let mut monitor = Monitor::new(settings, lent.memory()).expect("in time");
+        monitor.set_route(&route(&road)).expect("a route");
+        let found = problem(&mut monitor, &inputs(resolution)).expect("an error");
+        assert_eq!(found.field, field);
+        assert_eq!(asked(&mut monitor, 600 * MS), requests, "{field}");
+    }
+}
+
+const LATE: InvalidInput = InvalidInput { field: "cells", index: None, problem: Problem::TooMany };
+
+/// A CAV that stands, in as many points as there may be.
+fn still(world: &World) -> Vec<TrajectoryPoint> {
+    let point = |i| TrajectoryPoint { t_ns: i * MS, x: world.ego.x, y: 0.0, cos: 1.0, sin: 0.0 };
+    (0..1024_i64).map(point).collect()
+}
+
+fn map(resolution: f64, occupied: &[u8; 8]) -> GridMap<'_> {
+    let (x, y, cos, sin, width, height) = (0.0, 0.0, 1.0, 0.0, 8, 8);
+    GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown: None }
+}
+
+fn problem(monitor: &mut Monitor<'_>, inputs: &Inputs<'_>) -> Option<InvalidInput> {
+    match monitor.cycle(inputs).0 {
+        Decision::Unsafe { report: Err(problem), .. } => Some(problem),
+        Decision::Unsafe { report: Ok(_), .. } | Decision::Safe { .. } => None,
     }
 }
