@@ -74,6 +74,9 @@ impl<T: Transport> Vehicle<'_, T> {
             self.tally.used(now_ns, self.played.period_ns(), used);
         }
         self.answered(now_ns, before, Ok(actions), "unsafe");
+        if let Some(advice) = self.monitor.advice() {
+            self.tally.note(now_ns, What::Advice { advice: advice.to_string() });
+        }
         let control = Some((self.configuration(), follows));
         if self.control != control {
             self.control.clone_from(&control);

@@ -93,6 +93,11 @@ pub enum What {
         /// What control follows.
         follows: Follows,
     },
+    /// The monitor says what contradicts itself.
+    Advice {
+        /// In words.
+        advice: String,
+    },
     /// The connection was made, or has ended; the first entry says whether there is one.
     Link {
         /// Whether there is one.
@@ -143,6 +148,7 @@ impl What {
                 Some(format!("fallback to Local: {failed} failed"))
             }
             Self::Control { configuration, follows } => Some(format!("{configuration}: {follows}")),
+            Self::Advice { advice } => Some(format!("advice: {advice}")),
             Self::Link { connected: true, connections: 1, .. } => Some("connected".to_owned()),
             Self::Link { connected: true, .. } => Some("connected again".to_owned()),
             Self::Link { connected: false, error, .. } => {
@@ -222,7 +228,7 @@ impl Coverage {
             What::Used { group, station, digest } => {
                 return self.used(entry.at_ns, group, *station, *digest);
             }
-            What::Control { .. } | What::Link { .. } => {}
+            What::Control { .. } | What::Link { .. } | What::Advice { .. } => {}
         }
         Ok(())
     }
