@@ -2,7 +2,7 @@
 
 use core::ffi::c_char;
 
-use mufasa::input::InvalidInput;
+use mufasa::report::InvalidInput;
 use mufasa::monitor::{MonitorError, Unusual};
 use mufasa::offloading::requester::{Requester, RequesterError};
 
