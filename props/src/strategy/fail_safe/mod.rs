@@ -160,7 +160,9 @@ impl Aim<'_> {
 
     /// It is by, braking since its list, when the window of a place begins, or nearly so.
     fn passed(&self, draw: &mut Draw<'_>) -> Found {
-        let k = draw.below(self.path.places.len());
+        // Who passes the last place meets the CAV nowhere else.
+        let last = self.path.places.len() - 1;
+        let k = if draw.one_in(2) { last } else { draw.below(last + 1) };
         let (at, e) = self.corridor(draw, k, 1.0);
         let (a_b, t) = (self.cycle.parameters.a_b, self.age + self.path.begin(k));
         let speed = draw.pick(&[8.0, 25.0, 3.0, a_b * t, 0.5]).min(100.0);
