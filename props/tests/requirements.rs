@@ -9,6 +9,8 @@
 
 #[path = "tree/citations.rs"]
 mod citations;
+#[path = "tree/hash.rs"]
+mod hash;
 #[path = "tree/ids.rs"]
 mod ids;
 #[path = "tree/lines.rs"]

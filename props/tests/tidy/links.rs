@@ -10,21 +10,23 @@ pub fn broken(tree: &Tree) -> Vec<(String, String)> {
             if link.contains("://") || link.starts_with("mailto:") {
                 continue;
             }
-            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-            let target = if file.is_empty() { path.to_owned() } else { join(path, file) };
-            let is_folder = tree.0.keys().any(|it| it.starts_with(&format!("{target}/")));
-            let leads = match tree.0.get(&target) {
-                Some(text) => {
-                    anchor.is_empty() || sections(text).iter().any(|it| it.anchor == anchor)
-                }
-                None => anchor.is_empty() && is_folder,
-            };
-            if !leads {
+            if !leads(tree, path, link) {
                 wrong.push((path.to_owned(), format!("({link}) leads nowhere")));
             }
         }
     }
     wrong
+}
+
+/// Whether a link of a file leads to a file, a folder or a heading.
+pub fn leads(tree: &Tree, from: &str, link: &str) -> bool {
+    let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+    let target = if file.is_empty() { from.to_owned() } else { join(from, file) };
+    let is_folder = tree.0.keys().any(|it| it.starts_with(&format!("{target}/")));
+    match tree.0.get(&target) {
+        Some(text) => anchor.is_empty() || sections(text).iter().any(|it| it.anchor == anchor),
+        None => anchor.is_empty() && is_folder,
+    }
 }
 
 /// Files that Markdown names between backticks, from the root or from its own folder, and that are

@@ -4,6 +4,8 @@
 
 mod circles;
 mod evidence;
+#[path = "../tree/hash.rs"]
+mod hash;
 mod intervals;
 mod length;
 mod lifted;
@@ -16,6 +18,7 @@ mod misuse;
 mod must;
 mod names;
 mod packages;
+mod safety_case;
 mod style;
 #[path = "../tree/mod.rs"]
 mod tree;
@@ -153,6 +156,17 @@ fn evidence_that_is_named_exists() {
 #[test]
 fn each_lifted_lint_is_on_the_page_of_the_guideline() {
     judge(&lifted::not_listed(&Tree::here()), &[]);
+}
+
+/// What is claimed, with the evidence as somebody last looked at it. After a look `UPDATE_SAFETY_CASE=1` confirms it,
+/// and draws the pictures.
+#[test]
+fn the_safety_case_is_well_formed_and_names_what_is_open() {
+    if std::env::var_os("UPDATE_SAFETY_CASE").is_some() {
+        safety_case::update(&Tree::here());
+    }
+    judge(&safety_case::wrong(&Tree::here()), &[]);
+    judge(&safety_case::old_pictures(&Tree::here()), &[]);
 }
 
 /// Comments of Rust name headings of the spec.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::citations::Citations;
+use super::hash;
 use super::ids::{Requirement, rule};
 
 /// Hashes of a requirement and of what its citations were confirmed for.
@@ -23,12 +24,6 @@ pub struct Lock {
 
 const HEAD: &str = "# Written by CONFIRM=ID,... cargo test -p mufasa-props --test requirements.\n\
                     # Each id with the hash of its text; below it each citation with the hash that it was confirmed for.\n";
-
-/// FNV-1a of 64 bits: small, and the same everywhere.
-fn hash(text: &str) -> String {
-    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, step))
-}
 
 impl Lock {
     /// The lock from its text.
@@ -62,7 +57,7 @@ impl Lock {
                 wrong.push(format!("{id} was of a requirement that is gone: take a new id"));
                 continue;
             }
-            let now = hash(text);
+            let now = hash::of(text);
             let suspect: Vec<&str> = by
                 .iter()
                 .filter(|it| entry.citations.get(*it) != Some(&now))
@@ -102,7 +97,7 @@ impl Lock {
     pub fn confirm(&mut self, names: &[&str], requirements: &[Requirement], cited: &Citations) {
         for name in names {
             if let Some(requirement) = requirements.iter().find(|it| it.id == *name) {
-                let hash = hash(&requirement.text);
+                let hash = hash::of(&requirement.text);
                 let by = cited.get(*name).into_iter().flatten();
                 let citations = by.map(|it| (it.clone(), hash.clone())).collect();
                 self.entries.insert((*name).to_owned(), Entry { hash, citations });
