@@ -328,16 +328,12 @@ fn index(index: Option<usize>) -> i64 {
 /// A problem of the input for C; empty texts for none.
 pub(crate) fn input(problem: Option<InvalidInput>) -> MufasaInvalidInput {
     let (field, message) = problem.map_or(("", ""), |it| (it.field, Problem::message(it.problem)));
-    MufasaInvalidInput { index: index(problem.and_then(|it| it.index)), ..wrong(field, message) }
-}
-
-/// A problem with a field that is in no list.
-pub(crate) fn wrong(field: &str, message: &str) -> MufasaInvalidInput {
-    MufasaInvalidInput { field: text(field), message: text(message), index: -1 }
+    let index = index(problem.and_then(|it| it.index));
+    MufasaInvalidInput { field: text(field), message: text(message), index }
 }
 
 /// A text with a closing 0; one that is too long is cut off.
-fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
+pub(crate) fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
     let mut bytes = [0; MUFASA_TEXT_BYTES];
     let places = bytes.iter_mut().take(MUFASA_TEXT_BYTES - 1);
     for (place, byte) in places.zip(text.bytes()) {

@@ -74,6 +74,8 @@ pub enum MufasaAdvice {
     GapTooLong = 6,
     /// It is shorter: detections that are too small, or a center_offset that is too small.
     GapTooShort = 7,
+    /// No tick comes: nothing is offloaded, and nobody looks for silence.
+    NoTick = 8,
 }
 
 impl From<Advice> for MufasaAdvice {
@@ -86,6 +88,7 @@ impl From<Advice> for MufasaAdvice {
             Advice::LeadSpeed => Self::LeadSpeed,
             Advice::GapTooLong => Self::GapTooLong,
             Advice::GapTooShort => Self::GapTooShort,
+            Advice::NoTick => Self::NoTick,
         }
     }
 }

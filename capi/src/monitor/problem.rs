@@ -1,5 +1,8 @@
 //! Which field a status is about.
 
+use core::ffi::c_char;
+
+use mufasa::input::InvalidInput;
 use mufasa::monitor::{MonitorError, Unusual};
 use mufasa::offloading::requester::{Requester, RequesterError};
 
@@ -7,8 +10,24 @@ use super::place::{MufasaMonitor, Sizes};
 use super::settings::{MufasaMonitorSettings, refused};
 use crate::cycle::MufasaProfile;
 use crate::memory::{put, required};
-use crate::report::{self, MufasaInvalidInput};
+use crate::report::{self, MUFASA_TEXT_BYTES, MufasaInvalidInput};
 use crate::status::MufasaStatus;
+
+/// What is wrong with settings. The texts are empty when nothing is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaSettingsProblem {
+    /// Dotted path of the field, such as stages.a_b.
+    pub field: [c_char; MUFASA_TEXT_BYTES],
+    /// What is wrong and what would be right.
+    pub message: [c_char; MUFASA_TEXT_BYTES],
+    /// What was given, in the unit of the field (the period of UNUSUAL: s), or NAN where the message says it.
+    pub value: f64,
+    /// The limit below while the other fields are as they are, or NAN.
+    pub least: f64,
+    /// The limit above, or NAN.
+    pub most: f64,
+}
 
 /// What `mufasa_monitor_init` says of these settings, whatever the memory, and writes which field is wrong
 /// and what would be right; empty texts when none is.
@@ -19,12 +38,12 @@ use crate::status::MufasaStatus;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_monitor_settings_problem(
     settings: *const MufasaMonitorSettings,
-    problem: *mut MufasaInvalidInput,
+    problem: *mut MufasaSettingsProblem,
 ) -> MufasaStatus {
     // SAFETY: the caller's duty, here and below.
     let (status, told) = match unsafe { required(settings) } {
         Ok(settings) => checked(settings),
-        Err(status) => (status, report::input(None)),
+        Err(status) => (status, told("", "")),
     };
     // SAFETY: as above.
     unsafe { put(problem, told) }.map_or_else(|fault| fault, |()| status)
@@ -52,80 +71,96 @@ pub unsafe extern "C" fn mufasa_monitor_route_problem(
     }
 }
 
-fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInput) {
+fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsProblem) {
     let made = match settings.of_monitor() {
         Ok(made) => made,
         Err(MufasaStatus::InvalidPeriod) => {
-            return (MufasaStatus::InvalidPeriod, report::wrong("period_ns", POSITIVE));
+            return (MufasaStatus::InvalidPeriod, told("period_ns", POSITIVE));
         }
         Err(MufasaStatus::InvalidParameter) => {
-            let told =
-                report::wrong("check_time_ns", "below 0; give ns, or INT64_MAX for any time");
+            let told = told("check_time_ns", "below 0; give ns, or INT64_MAX for any time");
             return (MufasaStatus::InvalidParameter, told);
         }
-        Err(status) => return (status, report::wrong("profile", "no MufasaProfile")),
+        Err(status) => return (status, told("profile", "no MufasaProfile")),
     };
     let of_requester = Requester::new(made.profile, made.requester, &mut []);
     let [tracks, detections, cross_sections] = Sizes::of(settings).lists(made.profile);
     let of_requester = of_requester.map(drop).map_err(MonitorError::Requester);
     let in_time = || made.check_lists(tracks, detections, cross_sections);
     let Err(error) = made.check().and(of_requester).and_then(|()| in_time()) else {
-        return missing(settings).map_or((MufasaStatus::Ok, report::input(None)), |field| {
-            (MufasaStatus::MemoryTooSmall, report::wrong(field, AT_LEAST_1))
+        return missing(settings).map_or((MufasaStatus::Ok, told("", "")), |field| {
+            (MufasaStatus::MemoryTooSmall, told(field, AT_LEAST_1))
         });
     };
     let told = match error {
-        MonitorError::Stages(problem) => report::input(Some(problem)),
+        MonitorError::Stages(InvalidInput { field, problem, .. }) => told(field, problem.message()),
         MonitorError::Requester(RequesterError::NegativeParameter { field }) => {
-            report::wrong(field, "below 0; give nanoseconds from 0 to 2^63 - 1")
+            told(field, "below 0; give nanoseconds from 0 to 2^63 - 1")
         }
-        MonitorError::Requester(_) => report::wrong("requester", ""),
-        MonitorError::NoPeriod => report::wrong("period_ns", POSITIVE),
-        MonitorError::TimeTooShort { field, .. } => {
-            let field = if field == "period" { "period_ns" } else { field };
+        MonitorError::Requester(_) => told("requester", ""),
+        MonitorError::NoPeriod => told("period_ns", POSITIVE),
+        MonitorError::TimeTooShort { field, ns } => {
             let message = if field == "requester.t_wait_ns" {
                 "above 0 and below 1 s; is it in another unit? Give nanoseconds"
             } else {
                 "above 0 and below 1 ms; is it in another unit? Give nanoseconds"
             };
-            report::wrong(field, message)
+            MufasaSettingsProblem { value: number(ns), ..told(period_ns(field), message) }
         }
-        MonitorError::MaxAgeBelowLMax { .. } => report::wrong(
-            "parameters.max_age_ns",
-            "below requester.l_max_ns, so that no cycle could use what is in time; give at least that",
-        ),
-        MonitorError::DtMaxNotAbovePeriod { .. } => report::wrong(
-            "requester.dt_max_ns",
-            "not above period_ns; give that and its largest jitter",
-        ),
-        MonitorError::TauNotAbovePeriod { .. } => report::wrong(
-            "parameters.tau",
-            "not above period_ns; give that and the time from the next cycle to full braking, s",
-        ),
-        MonitorError::SessionsBefore { .. } => report::wrong(
-            "sessions_before",
-            "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0",
-        ),
-        MonitorError::Stall { .. } => report::wrong("stall", ""),
-        MonitorError::Memory { field, .. } => report::wrong(field, AT_LEAST_1),
-        MonitorError::TooSlow { list, .. } => {
+        MonitorError::MaxAgeBelowLMax { max_age_ns, l_max_ns } => {
+            let message = "below requester.l_max_ns, so that no cycle could use what is in time; give at least that";
+            let least = number(l_max_ns);
+            let told = told("parameters.max_age_ns", message);
+            MufasaSettingsProblem { value: number(max_age_ns), least, ..told }
+        }
+        MonitorError::DtMaxNotAbovePeriod { dt_max_ns, .. } => MufasaSettingsProblem {
+            value: number(dt_max_ns),
+            least: number(settings.period_ns),
+            ..told("requester.dt_max_ns", "not above period_ns; give that and its largest jitter")
+        },
+        MonitorError::TauNotAbovePeriod { tau, period } => {
+            let message = "not above period_ns; give that and the time from the next cycle to full braking, s";
+            let least = period.as_secs_f64();
+            MufasaSettingsProblem { value: tau, least, ..told("parameters.tau", message) }
+        }
+        MonitorError::SessionsBefore { sessions_before } => MufasaSettingsProblem {
+            value: number(sessions_before),
+            ..told("sessions_before", "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0")
+        },
+        MonitorError::Stall { .. } => told("stall", ""),
+        MonitorError::Memory { field, .. } => told(field, AT_LEAST_1),
+        MonitorError::TooSlow { list, given, most, .. } => {
             let field = match list {
                 "tracks" => "most_tracks",
                 "detections" => "most_detections",
                 "cross_sections" => "most_cross_sections",
                 list => list,
             };
-            report::wrong(field, "too many for check_time_ns; give fewer, or more time")
+            let told = told(field, "too many for check_time_ns; give fewer, or more time");
+            MufasaSettingsProblem { value: given.into(), most: most.into(), ..told }
         }
-        MonitorError::Unusual(Unusual { field, .. }) => {
-            let field = if field == "period" { "period_ns" } else { field };
-            report::wrong(
-                field,
-                "no road vehicle has that; is it in another unit? Else name it in meant",
-            )
+        MonitorError::Unusual(Unusual { field, value, least, most }) => {
+            let message = "no road vehicle has that; is it in another unit? Else name it in meant";
+            MufasaSettingsProblem { value, least, most, ..told(period_ns(field), message) }
         }
     };
     (refused(error), told)
+}
+
+/// A problem without numbers.
+fn told(field: &str, message: &str) -> MufasaSettingsProblem {
+    let (field, message) = (report::text(field), report::text(message));
+    MufasaSettingsProblem { field, message, value: f64::NAN, least: f64::NAN, most: f64::NAN }
+}
+
+/// The name that the period has here.
+fn period_ns(field: &str) -> &str {
+    if field == "period" { "period_ns" } else { field }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "for people to read")]
+fn number(ns: i64) -> f64 {
+    ns as f64
 }
 
 const POSITIVE: &str = "not above 0; give the nominal period of the results, ns";

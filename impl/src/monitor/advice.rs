@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::inputs::Inputs;
+use super::settings::Settings;
 use crate::input::cycle::{Detection, Ego, Lead};
 use crate::numbers::time::elapsed_ns;
 use crate::stages::order::is_current;
@@ -25,10 +26,12 @@ pub enum Advice {
     GapTooLong,
     /// It is shorter: detections that are too small, or a `center_offset` that is too small.
     GapTooShort,
+    /// No tick comes: nothing is offloaded, and nobody looks for silence.
+    NoTick,
 }
 
 impl Advice {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Period,
         Self::DetectionsNotCurrent,
         Self::LeadNotCurrent,
@@ -36,6 +39,7 @@ impl Advice {
         Self::LeadSpeed,
         Self::GapTooLong,
         Self::GapTooShort,
+        Self::NoTick,
     ];
 
     /// In words. Source: `spec/4-arithmetic.md#advice`.
@@ -56,6 +60,7 @@ impl Advice {
             Self::GapTooShort => {
                 "the gap is shorter than the way to the detection ahead; are sizes and center_offset right?"
             }
+            Self::NoTick => "no tick comes before the cycles; nothing is offloaded without it",
         }
     }
 }
@@ -99,8 +104,8 @@ pub(super) struct Watch {
     differ: i8,
     /// By how many the intervals prevail that are too long (or too short).
     off: i8,
-    /// Cycles in a row with something that was not current.
-    not_current: [u8; 3],
+    /// Cycles in a row with detections, lead or grid that were not current, and without a tick.
+    missing: [u8; 4],
     /// One bit for each that was found, and for each that was told.
     found: u8,
     told: u8,
@@ -116,7 +121,8 @@ impl Watch {
     }
 
     /// A cycle whose local input is valid.
-    pub(super) fn cycle(&mut self, inputs: &Inputs<'_>, period_ns: i64, max_age_ns: i64) {
+    pub(super) fn cycle(&mut self, inputs: &Inputs<'_>, settings: &Settings, is_ticked: bool) {
+        let (period_ns, max_age_ns) = (settings.period_ns(), settings.stages.max_age_ns);
         let now_ns = inputs.now.as_nanoseconds();
         let units = self.interval(now_ns, period_ns);
         let (detections, lead) = (inputs.detections, inputs.lead);
@@ -125,11 +131,17 @@ impl Watch {
             lead.map(|it| it.stamp_ns),
             inputs.grid.map(|it| it.stamp_ns),
         ];
-        let kinds = [Advice::DetectionsNotCurrent, Advice::LeadNotCurrent, Advice::GridNotCurrent];
+        let kinds = [
+            Advice::DetectionsNotCurrent,
+            Advice::LeadNotCurrent,
+            Advice::GridNotCurrent,
+            Advice::NoTick,
+        ];
         let current = |stamp_ns: i64| is_current(stamp_ns, now_ns, max_age_ns);
-        for ((stamp_ns, count), kind) in stamps.into_iter().zip(&mut self.not_current).zip(kinds) {
-            let is_old = stamp_ns.is_some_and(|stamp_ns| !current(stamp_ns));
-            *count = if is_old { count.saturating_add(1) } else { 0 };
+        let is_old = stamps.map(|stamp_ns| stamp_ns.is_some_and(|it| !current(it)));
+        let is_missing = is_old.into_iter().chain([!is_ticked]);
+        for ((is_missing, count), kind) in is_missing.zip(&mut self.missing).zip(kinds) {
+            *count = if is_missing { count.saturating_add(1) } else { 0 };
             if *count >= CYCLES {
                 self.found |= bit(kind);
             }

@@ -139,13 +139,14 @@ impl Monitor<'_> {
         }
         let is_valid = report.is_ok();
         let max_age_ns = self.settings.stages.max_age_ns;
-        if is_valid {
-            self.watch.cycle(inputs, self.settings.period_ns(), max_age_ns);
-        }
         let dt_max_ns = self.settings.requester.dt_max_ns;
         let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
+        let is_ticked = is_ticked(ticked_ns, now_ns, dt_max_ns);
+        if is_valid {
+            self.watch.cycle(inputs, &self.settings, is_ticked);
+        }
         let is_remote = mot.is_some() || plan.is_some();
-        if report.is_ok() && is_remote && !is_ticked(ticked_ns, now_ns, dt_max_ns) {
+        if report.is_ok() && is_remote && !is_ticked {
             // Nobody looked for silence.
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
