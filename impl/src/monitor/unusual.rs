@@ -23,6 +23,7 @@ pub struct Unusual {
 impl fmt::Display for Unusual {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { field, value, least, most } = self;
+        // IMPL-15
         write!(
             f,
             "settings.{field} = {value} is not from {least} to {most}, as road vehicles have it; "
@@ -43,6 +44,7 @@ pub(super) fn rows(
     const S: f64 = 1e9;
     let row = |field, value, [least, most]: [f64; 2]| Unusual { field, value, least, most };
     [
+        // IMPL-14
         row("stages.theta_tr", stages.theta_tr, [0.01, 2.0]),
         row("stages.theta_map", stages.theta_map, [0.01, 2.0]),
         row("stages.theta_obj", stages.theta_obj, [2.0, 100.0]),
