@@ -12,6 +12,7 @@ pub(crate) fn check_parameters(parameters: &Parameters) -> Check {
             $(AT.$number(concat!("parameters.", stringify!($name)), parameters.$name, $domain)?;)*
         };
     }
+    // DOM-01
     crate::parameters!(check);
     Ok(())
 }
