@@ -27,8 +27,8 @@ impl Released {
     ) -> Self {
         // MON-10
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
-        // MON-02: in a safe cycle with remote tracks stage i passed or had no detections; only a study
-        // leaves it out.
+        // MON-02: in a safe cycle with remote tracks stage i passed or had no detections; only a
+        // study leaves it out.
         let was_compared = report
             .as_ref()
             .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
