@@ -40,11 +40,11 @@ pub(super) fn rows(
     period: Duration,
     step_ps: u64,
 ) -> [Unusual; 24] {
+    // IMPL-14
     const MS: f64 = 1e6;
     const S: f64 = 1e9;
     let row = |field, value, [least, most]: [f64; 2]| Unusual { field, value, least, most };
     [
-        // IMPL-14
         row("stages.theta_tr", stages.theta_tr, [0.01, 2.0]),
         row("stages.theta_map", stages.theta_map, [0.01, 2.0]),
         row("stages.theta_obj", stages.theta_obj, [2.0, 100.0]),
