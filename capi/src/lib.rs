@@ -11,6 +11,7 @@
 //! Without the feature `std` (on by default) it is built on `core` alone, for targets without an operating
 //! system; a panic would then end in the `abort` that the program has.
 #![cfg_attr(not(feature = "std"), no_std)]
+// INPUT-08
 #![cfg_attr(
     not(test),
     deny(

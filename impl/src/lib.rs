@@ -154,6 +154,7 @@
 //! are argued where they stand and tested against exact arithmetic; they are not proved by machine.
 //! Fast paths are submodules of their stage: what they cannot decide is left to the numbers with
 //! bounds.
+// IMPL-07
 #![no_std]
 // Tests may panic: that is how they fail. Their sizes and draws are small.
 #![cfg_attr(
@@ -165,6 +166,7 @@
         clippy::cast_sign_loss
     )
 )]
+// IMPL-07, INPUT-08
 #![cfg_attr(
     not(test),
     deny(

@@ -48,6 +48,7 @@ pub enum Input {
 /// Why a conditional stage did not run; with several reasons the first in this order. Source:
 /// `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+// SCHED-15
 pub enum Reason {
     /// An earlier stage failed.
     AfterFailure,
@@ -59,6 +60,7 @@ pub enum Reason {
 
 /// What became of a stage in this cycle. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// SCHED-14
 pub enum Outcome {
     /// It ran and found nothing.
     Passed,
@@ -75,6 +77,7 @@ pub enum Outcome {
 /// The comparison that decided a failure, in the order of `spec/`: first by rule, then by
 /// trajectory point, then by list order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+// SCHED-20
 pub enum Rule {
     /// Stage i, in `PlanRemote` iv: a comparison of what the CAV saw itself is too close to call.
     Ambiguous,
@@ -132,6 +135,7 @@ pub enum Rule {
 /// doubles. `track` is an id; `point`, `detection`, `item`, `segment` (of the reference path) and `disk`
 /// are list indices; `cell` is (column, row). Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// SCHED-19
 pub struct Witness {
     /// The rule that was broken.
     pub rule: Rule,

@@ -204,7 +204,7 @@ unsafe fn tell(
     }
 }
 
-/// The monitor in its next call, which ends what the last cycle gave.
+/// The monitor in its next call, which ends what the last cycle gave (MON-03).
 ///
 /// # Safety
 /// As for [`mufasa_monitor_set_route`].
@@ -373,13 +373,13 @@ unsafe fn cycle(
     Ok(verdicts.of_cycle(monitor, &with_remote(inputs, tracks, trajectory)))
 }
 
-/// Whether a list is no longer than the settings say.
+/// Whether a list is no longer than the settings say (IMPL-09).
 const fn fits(len: usize, most: usize) -> Result<(), MufasaStatus> {
     if len <= most { Ok(()) } else { Err(MufasaStatus::MemoryTooSmall) }
 }
 
 /// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number. That elements of the
-/// stations were current counts in it, too (MON-35).
+/// stations were current counts in it, too (MON-35), and the requester is told (MON-10).
 fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
     let nowhere = Ego {
         x: 0.0,

@@ -163,12 +163,14 @@ impl Verdicts {
         let is_local = |group: &Group| monitor.source(*group) == Source::Local;
         let local = Group::ALL.into_iter().filter(is_local);
         let local_services = local.fold(0, |sum, group| sum | event::group_number(group) as u32);
+        // IMPL-16, IMPL-17
         let advice = monitor.advice().map_or(MufasaAdvice::None, Into::into);
         MufasaDecision { local_services, advice, ..told }
     }
 
     /// What the last cycle gave ends with it: who kept a pointer finds empty lists, and numbers that are none.
     pub(super) fn forget(&mut self) {
+        // MON-03
         let tracks = self.tracks.iter_mut().take(self.track_list.items_len);
         tracks.for_each(|it| (it.x, it.y) = (f64::NAN, f64::NAN));
         let points = self.points.iter_mut().take(self.trajectory.points_len);
@@ -182,6 +184,7 @@ impl Verdicts {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
+                // MON-40, MON-41
                 brake_by: trajectory.and_then(|it| it.brake_by()).map_or(NEVER, time),
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,

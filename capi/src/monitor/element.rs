@@ -104,6 +104,7 @@ impl<T> Received<T> {
         if let Some(stored) = self.store(items) {
             return Ok(self.take(tell(session, stored)?));
         }
+        // MON-20
         let nothing = Stored { items: self.spare.cast_const(), len: 0 };
         let actions = self.take(tell(NO_SESSION, nothing)?);
         let dropped = if is_running { MufasaDropReason::TooLong } else { actions.dropped };

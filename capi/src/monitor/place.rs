@@ -169,6 +169,7 @@ pub(super) unsafe fn init(
     // SAFETY: what is behind the monitor is the caller's memory, too, and the monitor's as long as it is
     // used.
     let arena: &mut Arena<'static> = &mut unsafe { Arena::new(behind, rest) }?;
+    // IMPL-08
     let parts = Memory {
         stations: arena.keep((0..sizes.stations).map(|_| StationRecord::FREE))?,
         rows: arena.keep((0..sizes.tracks).map(|_| Row::default()))?,

@@ -129,6 +129,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         },
         MonitorError::Stall { .. } => told("stall", ""),
         MonitorError::Memory { field, .. } => told(field, AT_LEAST_1),
+        // IMPL-12
         MonitorError::TooSlow { list, given, most, .. } => {
             let field = match list {
                 "tracks" => "most_tracks",
@@ -139,6 +140,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
             let told = told(field, "too many for check_time_ns; give fewer, or more time");
             MufasaSettingsProblem { value: given.into(), most: most.into(), ..told }
         }
+        // IMPL-15
         MonitorError::Unusual(Unusual { field, value, least, most }) => {
             let message = "no road vehicle has that; is it in another unit? Else name it in meant";
             MufasaSettingsProblem { value, least, most, ..told(period_ns(field), message) }

@@ -91,6 +91,7 @@ pub unsafe extern "C" fn mufasa_monitor_meant(field: *const c_char) -> u32 {
 impl MufasaMonitorSettings {
     /// Those of `mufasa`.
     pub(super) fn of_monitor(&self) -> Result<Settings, MufasaStatus> {
+        // MON-62
         let period_ns = u64::try_from(self.period_ns).map_err(|_| MufasaStatus::InvalidPeriod)?;
         let period = Duration::from_nanos(period_ns);
         let check_time_ns =

@@ -36,6 +36,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///
 /// Usually each stage is linear in its lists; at most it takes the steps that [`most_steps`](steps::most_steps) counts by their
 /// sizes, each of at most 10 instructions.
+// IMPL-08
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     check_with(cycle, &Indexes::default(), scratch)
 }
@@ -61,7 +62,9 @@ pub fn check_with<'a>(
 ) -> Result<Report, InvalidInput> {
     let indexes = of_this_route(cycle, indexes);
     match indexes.validate(cycle) {
+        // INPUT-05
         Err(Fault::Local(problem)) => Err(problem),
+        // INPUT-06
         Err(Fault::Remote(problem)) => {
             let schedule = schedule(cycle.profile, cycle.configuration);
             let stages = schedule.stages.map(|scheduled| match scheduled {
@@ -72,7 +75,9 @@ pub fn check_with<'a>(
             });
             Ok(Report { failed_stage: Some(FailedStage::Input), stages, input: Some(problem) })
         }
+        // INPUT-07
         Ok(usable) => {
+            // IMPL-09
             scratch.fits(cycle)?;
             Ok(run(&ValidCycle::of(cycle, usable, indexes), scratch))
         }
@@ -180,6 +185,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// After `look_back`, which says what was seen. Tracks go to stage i whatever their age.
     fn i(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
+        // SCHED-04
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
         Ok(match seen {
@@ -198,6 +204,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let (found, all_inside) = trajectory_to_map(cycle, route, points);
         let [h07, h11, h14] = [HardenedRule::H07, HardenedRule::H11, HardenedRule::H14]
             .map(|rule| cycle.profile.has(rule));
+        // SCHED-20
         Ok(found
             .or_else(|| if h07 { start_failure(cycle, points) } else { None })
             .or_else(|| if h07 && !all_inside { corridor_failure(route, points) } else { None })
@@ -274,6 +281,7 @@ struct Current<'c, 'a> {
 
 impl<'c, 'a> Current<'c, 'a> {
     fn new(cycle: &'c Cycle<'a>, usable: Usable) -> Self {
+        // SCHED-13
         let current = |stamp_ns| is_current(stamp_ns, cycle.now_ns, cycle.parameters.max_age_ns);
         let trajectory = cycle.trajectory.as_ref().filter(|list| current(list.stamp_ns));
         Self {
@@ -297,6 +305,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     let mut slots = stages.iter_mut();
     let Cycle { profile, configuration, .. } = *valid.cycle;
     let failed_stage = decide(profile, configuration, valid.given(), |stage, turn| {
+        // SCHED-14
         let outcome = match turn {
             Turn::Rest(idle) => idle.into(),
             Turn::Gap(idle) => {

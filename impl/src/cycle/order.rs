@@ -51,6 +51,7 @@ pub fn decide(
         failed |= fails;
         fails
     });
+    // SCHED-17
     match past.failed {
         Some(stage) => Some(FailedStage::Stage(stage)),
         None => no_obstacle_check(profile, configuration, (given, past)),

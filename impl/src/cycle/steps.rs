@@ -131,6 +131,7 @@ impl Counts {
         };
         let longest = among.iter().min_by_key(|list| with(list, 0))?;
         let given = *(longest.1)(&mut { *self });
+        // IMPL-12
         let (mut fits, mut above) = (0, given);
         while fits < above {
             let middle = above.saturating_sub(above.saturating_sub(fits) >> 1);
@@ -175,6 +176,7 @@ impl Steps {
 
 /// The most steps that a cycle of these sizes takes. Source: `spec/4-arithmetic.md#steps`.
 pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
+    // IMPL-10
     let &Counts { tracks, points, detections, lists, cross_sections, places, .. } = counts;
     let [t, p, d] = [tracks, points, detections].map(u64::from);
     let [s, k, lists] = [cross_sections, places, lists].map(u64::from);

@@ -44,6 +44,7 @@ pub(crate) struct CheckedBefore<'f> {
 pub(crate) fn validate(cycle: &Cycle<'_>, before: &CheckedBefore<'_>) -> Result<Usable, Fault> {
     let [remote_tracks, remote_trajectory] =
         Group::ALL.map(|group| cycle.configuration.is_remote(group));
+    // INPUT-02, INPUT-03, INPUT-05
     local(cycle, remote_tracks, before).map_err(Fault::Local)?;
     let mut trajectory = true;
     if !remote_trajectory {
@@ -51,6 +52,7 @@ pub(crate) fn validate(cycle: &Cycle<'_>, before: &CheckedBefore<'_>) -> Result<
             .map_err(Fault::Local)?;
     }
     if remote_tracks {
+        // INPUT-06
         check_tracks(cycle.tracks.as_ref(), cycle.now_ns, true).map_err(Fault::Remote)?;
     }
     if remote_trajectory {
@@ -62,6 +64,7 @@ pub(crate) fn validate(cycle: &Cycle<'_>, before: &CheckedBefore<'_>) -> Result<
 
 /// All local input but the trajectory.
 fn local(cycle: &Cycle<'_>, remote_tracks: bool, before: &CheckedBefore<'_>) -> Check {
+    // INPUT-02
     check_parameters(&cycle.parameters)?;
     check_ego(&cycle.ego)?;
     if let Some(lead) = &cycle.lead {
@@ -141,6 +144,7 @@ fn check_detection_history(
     for (index, list) in history.iter().enumerate() {
         let at = Place { index: Some(index) };
         at.stamp("detection_history.stamp_ns", list.stamp_ns, now_ns, false)?;
+        // INPUT-04
         if younger.is_some_and(|younger| younger <= list.stamp_ns) {
             at.problem("detection_history.stamp_ns", Problem::StampNotDecreasing)?;
         }
@@ -215,6 +219,7 @@ pub(crate) fn check_tracks(list: Option<&TrackList<'_>>, now_ns: i64, remote: bo
     for (index, track) in list.items.iter().enumerate() {
         check_track(track, Place { index: Some(index) })?;
         let mut earlier = list.items.iter().take(index);
+        // INPUT-04
         if seen.perhaps(track.id) && earlier.any(|earlier| earlier.id == track.id) {
             Place { index: Some(index) }.problem("tracks.items.id", Problem::DuplicateId)?;
         }
@@ -258,6 +263,7 @@ pub(crate) fn check_trajectory(
         at.f64("trajectory.points.cos", cos, ANY)?;
         at.f64("trajectory.points.sin", sin, ANY)?;
         at.direction("trajectory.points.cos", cos, sin)?;
+        // INPUT-04
         if before.is_some_and(|before| before >= t_ns) {
             at.problem("trajectory.points.t_ns", Problem::TimeNotIncreasing)?;
         }

@@ -8,6 +8,7 @@
 #[macro_export]
 macro_rules! parameters {
     ($each:ident) => {
+        // DOM-01
         $each! {
             /// Stage i: the mean distance of the assigned pairs has to be below this, m.
             theta_tr: f64 = 0.2 in [1e-3, 1e3];
@@ -71,6 +72,7 @@ macro_rules! fields {
 
         impl Default for Parameters {
             fn default() -> Self {
+                // DOM-02
                 Self { $($name: $default,)* }
             }
         }

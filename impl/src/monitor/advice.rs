@@ -116,12 +116,14 @@ impl Watch {
     pub(super) fn next(&mut self) -> Option<Advice> {
         let mut kinds = Advice::ALL.into_iter();
         let next = kinds.find(|it| self.found & !self.told & bit(*it) != 0)?;
+        // IMPL-17
         self.told |= bit(next);
         Some(next)
     }
 
     /// A cycle whose local input is valid.
     pub(super) fn cycle(&mut self, inputs: &Inputs<'_>, settings: &Settings, is_ticked: bool) {
+        // IMPL-16
         let (period_ns, max_age_ns) = (settings.period_ns(), settings.stages.max_age_ns);
         let now_ns = inputs.now.as_nanoseconds();
         let units = self.interval(now_ns, period_ns);

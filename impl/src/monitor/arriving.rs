@@ -46,6 +46,7 @@ impl PerGroup<Served> {
         let is_in_time = is_current(generated_ns, now_ns, requester.parameters().l_max_ns);
         let is_too_old = stamp_ns < now_ns && !is_current(stamp_ns, now_ns, max_age_ns);
         let is_starved = self.get(group).is_starved;
+        // MON-20, MON-30, MON-32
         let is_no_arrival = is_too_long || (is_in_time && (is_too_old || is_starved));
         let named = if is_no_arrival { NO_SESSION } else { session };
         let running = requester.session_of(group);
@@ -56,6 +57,7 @@ impl PerGroup<Served> {
         if drops == [None; 2] {
             return Ok((None, by_kind));
         }
+        // MON-09
         let why = if !is_running {
             DropReason::OtherSession
         } else if is_too_long {

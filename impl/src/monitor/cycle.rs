@@ -120,6 +120,7 @@ impl Monitor<'_> {
     /// ```
     ///
     /// Source: `spec/monitor.md#monitor`.
+    // MON-03
     pub fn cycle<'m>(&'m mut self, inputs: &Inputs<'m>) -> (Decision<'m>, Actions) {
         let now_ns = inputs.now.as_nanoseconds();
         let remote = Group::ALL.map(|group| self.requester.session_of(group));
@@ -133,6 +134,7 @@ impl Monitor<'_> {
             None => inputs.local_trajectory,
         };
         let has_route = self.route.is_set();
+        // MON-06
         let mut report = self.check(self.configuration(), inputs, tracks, trajectory, true);
         if let Err(problem) = &mut report {
             *problem = named(*problem, has_route);
@@ -140,14 +142,16 @@ impl Monitor<'_> {
         let is_valid = report.is_ok();
         let max_age_ns = self.settings.stages.max_age_ns;
         let dt_max_ns = self.settings.requester.dt_max_ns;
+        // MON-45
         let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
         let is_ticked = is_ticked(ticked_ns, now_ns, dt_max_ns);
         if is_valid {
+            // IMPL-18
             self.watch.cycle(inputs, &self.settings, is_ticked);
         }
         let is_remote = mot.is_some() || plan.is_some();
         if report.is_ok() && is_remote && !is_ticked {
-            // Nobody looked for silence.
+            // MON-46: nobody looked for silence.
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
 
@@ -164,8 +168,10 @@ impl Monitor<'_> {
             Released::of(&report, in_use, has_current);
         let tracks = tracks.filter(|_| gives_tracks);
         let trajectory = trajectory.filter(|_| gives_trajectory);
+        // MON-10
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step_alone(inputs.now, kind);
+        // MON-49
         let brake = self.supervise(inputs, trajectory.is_some());
         if let Some(Stall { way_m, .. }) = self.settings.stall {
             let is_remote = self.configuration().is_remote(Group::Plan);
@@ -196,6 +202,7 @@ impl Monitor<'_> {
         keeps: bool,
     ) -> Result<Report, InvalidInput> {
         let now_ns = inputs.now.as_nanoseconds();
+        // MON-06
         let mut cycle = Cycle {
             profile: self.settings.profile,
             parameters: self.settings.stages,
@@ -214,6 +221,7 @@ impl Monitor<'_> {
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
+        // MON-16, MON-17
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
             let indexes = Indexes { route, detections: &[] };
             in_time(&self.settings, &self.in_time, &cycle)?;
@@ -233,6 +241,7 @@ impl Monitor<'_> {
         if_kept(&report, [holds, tracks_fit])?;
         let [own, ..] = selection.indexes;
         let shape = own.shape();
+        // MON-12
         if keeps && is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
             self.history.keep(&list, shape);
         }
@@ -249,6 +258,7 @@ fn in_time(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Result<(),
     if counts.is_within(known) {
         return Ok(());
     }
+    // IMPL-13
     settings.check_steps(&counts, &LISTS).map_err(|error| {
         let field =
             if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
@@ -267,6 +277,7 @@ pub(super) fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
 /// The element, if it is the last one that the requester used in this session: of a session each that
 /// is used was generated later than the one before.
 fn last_used<'c, T>(running: &Running, element: Option<Element<'c, T>>) -> Option<Element<'c, T>> {
+    // MON-08
     element.filter(|it| is_last_used(running, it.station, it.session, it.generated))
 }
 

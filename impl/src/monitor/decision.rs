@@ -37,6 +37,7 @@ pub enum Decision<'m> {
     },
     /// A stage failed, remote data are invalid, or local input is. The requester has fallen back: no
     /// group is remote any more, and no data of this cycle may reach control.
+    // FALL-03
     Unsafe {
         /// What failed; an error is invalid local input.
         report: Result<Report, InvalidInput>,
@@ -99,6 +100,7 @@ pub struct Verified<'m, T> {
     value: T,
     source: Source,
     brake_by: Option<Time>,
+    // MON-03
     until_the_next_cycle: PhantomData<&'m T>,
 }
 

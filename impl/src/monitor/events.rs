@@ -92,6 +92,7 @@ impl Monitor<'_> {
         now: Time,
         message: Message<L>,
     ) -> Result<(Arrival<L>, Actions), RequesterError> {
+        // MON-20
         let is_too_long = message.items.as_ref().len() > self.rows.len();
         self.arrival(now, Group::Mot, message, is_too_long)
     }
@@ -113,11 +114,13 @@ impl Monitor<'_> {
     /// When planning was last given back because the CAV got nowhere (F-45): at a tick that names a release of PLAN.
     /// `None`: never. Source: `spec/monitor.md#monitor`.
     pub const fn given_back(&self) -> Option<Time> {
+        // MON-59
         self.progress.given_back
     }
 
     /// Whether planning is remote and gets nowhere.
     fn is_stalled(&self) -> bool {
+        // MON-54
         self.settings.stall.is_some_and(|stall| {
             u128::try_from(self.progress.remote_ns).is_ok_and(|it| it >= stall.time.as_nanos())
                 && self.requester.session_of(Group::Plan).is_some()
@@ -129,10 +132,13 @@ impl Monitor<'_> {
     fn give_back(&mut self, now: Time) -> Actions {
         let area = self.requester.suspend().parts().area;
         let without = EventKind::Area { groups: Groups { plan: false, ..area } };
+        // MON-57
         let left = self.step_alone(now, without);
         let back = self.step_alone(now, EventKind::Area { groups: area });
         let t_wait_ns = self.settings.requester.t_wait_ns;
+        // MON-58
         self.requester.hold(now.as_nanoseconds().saturating_add(t_wait_ns));
+        // MON-55, MON-59
         (self.progress.remote_ns, self.progress.given_back) = (0, Some(now));
         left.and(&back)
     }
@@ -171,6 +177,7 @@ impl Monitor<'_> {
     fn decide(&mut self, now: Time, kind: EventKind) -> Result<ByKind, RequesterError> {
         let t_ns = now.as_nanoseconds();
         let looks = self.settings.profile.has(HardenedRule::H14);
+        // MON-43
         let is_blind = looks && matches!(kind, EventKind::Tick) && !self.history.reaches_back(t_ns);
         let Self { settings, requester, served, .. } = self;
         served.step(requester, &Event { t_ns, kind }, is_blind, || settings.period_ns())

@@ -61,12 +61,14 @@ impl<'a> History<'a> {
 
     /// Whether a list can be kept.
     pub(super) const fn holds(&self, list: &DetectionList<'_>) -> bool {
+        // MON-19
         list.items.len() <= self.capacity
     }
 
     /// Whether a list is kept that is from 500 ms to 1 s old at this time: soon after it a cycle finds how
     /// what it sees has moved (H-14).
     pub(crate) fn reaches_back(&self, now_ns: i64) -> bool {
+        // MON-43
         let ages = REACH_NS..=LONGEST_NS;
         self.kept.iter().flatten().any(|kept| ages.contains(&elapsed_ns(kept.stamp_ns, now_ns)))
     }
@@ -110,9 +112,10 @@ impl<'a> History<'a> {
         if let Some(youngest_ns) = self.youngest_ns {
             let since_ns = elapsed_ns(youngest_ns, list.stamp_ns);
             if since_ns < LONGEST_NS.saturating_neg() {
-                // The clock was set back.
+                // MON-14: the clock was set back.
                 self.kept = [None; PLACES];
             } else if since_ns < SPACING_NS {
+                // MON-12
                 return;
             }
         }
@@ -141,6 +144,7 @@ pub(crate) fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64) -> [Option<u
             continue;
         }
         for (wanted_ns, nearest, place) in &mut found {
+            // MON-15
             let offered = (age_ns.abs_diff(*wanted_ns), age_ns);
             if offered < *nearest {
                 (*nearest, *place) = (offered, Some(at));

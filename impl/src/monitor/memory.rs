@@ -8,6 +8,7 @@ use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::StationRecord;
 
 /// How many earlier lists of detections are kept.
+// MON-13
 pub(crate) const PLACES: usize = 12;
 
 /// Slices that the monitor has for itself as long as it lives; what they hold before means nothing.
@@ -79,6 +80,7 @@ pub(crate) const PLACES: usize = 12;
 ///
 /// Source: `spec/monitor.md#monitor`.
 #[derive(Debug)]
+// IMPL-08
 pub struct Memory<'a> {
     /// A place for each station that ever offers something; at least one.
     pub stations: &'a mut [StationRecord],
@@ -134,6 +136,7 @@ impl Lengths {
         let Self { stations, rows, columns, detections, slots } = self;
         let capacity = if looks_back { detections.wrapping_div(PLACES) } else { 0 };
         let least = if looks_back { PLACES } else { 0 };
+        // MON-21
         for (field, needed, given) in [
             ("stations", 1, stations),
             ("detections", least, detections),

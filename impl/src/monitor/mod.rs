@@ -94,6 +94,7 @@ impl<'a> Monitor<'a> {
         };
         let capacity = lengths.capacity(settings.profile.looks_back())?;
         let detected = if settings.profile.looks_back() { capacity } else { columns.len() };
+        // IMPL-11
         let in_time = settings.in_time([rows.len(), detected, cross_sections.len()])?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
@@ -157,7 +158,9 @@ fn requester<'a>(
     stations: &'a mut [StationRecord],
 ) -> Result<Requester<'a>, MonitorError> {
     let fresh = Requester::new(settings.profile, settings.requester, stations);
+    // MON-23
     let mut parts = fresh.map_err(MonitorError::Requester)?.suspend().parts();
+    // MON-28
     parts.sessions = settings.sessions_before;
     Ok(Requester::resume(Suspended::from_parts(&parts), stations))
 }

@@ -25,13 +25,18 @@ impl Released {
         [mot, plan]: [Option<i64>; 2],
         [has_tracks, has_trajectory]: [bool; 2],
     ) -> Self {
+        // MON-10
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
-        // In a safe cycle with remote tracks stage i passed or had no detections; only a study leaves it out.
+        // MON-02: in a safe cycle with remote tracks stage i passed or had no detections; only a
+        // study leaves it out.
         let was_compared = report
             .as_ref()
             .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
+        // MON-01, MON-05
         let tracks = has_tracks && is_safe && was_compared && mot.is_some();
+        // MON-01, MON-04, MON-05, SCHED-18
         let trajectory = has_trajectory && is_safe && (mot.is_some() || plan.is_some());
+        // MON-11
         let sessions = Sessions { mot: mot.filter(|_| tracks), plan: plan.filter(|_| trajectory) };
         Self { is_safe, tracks, trajectory, sessions }
     }
@@ -48,6 +53,7 @@ pub fn if_kept(
     let own = InvalidInput { field, index: None, problem: Problem::ScratchTooSmall };
     let fits = detections_fit && tracks_fit;
     match report {
+        // MON-19, MON-65
         Ok(_) if !fits => Err(own),
         Ok(_) => Ok(()),
         // What does not fit is too much for the scratch, too.
@@ -59,6 +65,7 @@ pub fn if_kept(
 /// Whether the element with this station, session and generation time is the last one that the requester used in the
 /// session. Source: `spec/monitor.md#monitor`.
 pub fn is_last_used(running: &Running, station: i64, session: i64, generated: Time) -> bool {
+    // MON-07
     let generated_ns = Some(generated.as_nanoseconds());
     (station, session, generated_ns) == (running.station, running.session, running.last_used_ns)
 }
@@ -66,6 +73,7 @@ pub fn is_last_used(running: &Running, station: i64, session: i64, generated: Ti
 /// Whether the last tick since the cycle before is in time, ns. Source: `spec/monitor.md#monitor`.
 pub fn is_ticked(ticked_ns: Option<i64>, now_ns: i64, dt_max_ns: i64) -> bool {
     ticked_ns.is_some_and(|tick_ns| {
+        // MON-45
         let since_ns = now_ns.checked_sub(tick_ns);
         since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
     })

@@ -21,6 +21,7 @@ impl<'a> KeptRoute<'a> {
 
     /// Takes the place of the route before, or changes nothing.
     pub(crate) fn set(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
+        // MON-18
         check_route(route)?;
         let count = route.cross_sections.len();
         if self.cross_sections.len() < count || self.blocks.len() < Block::needed(count) {

@@ -33,9 +33,13 @@ impl Served {
         // In 128 bits none of this can overflow.
         let [now_ns, first_ns, last_ns, period_ns] =
             [now_ns, first_ns, self.last_ns, period_ns].map(i128::from);
+        // MON-35
         let without_ns = now_ns.saturating_sub(last_ns).max(period_ns);
+        // MON-36
         let of_use_ns = last_ns.saturating_sub(first_ns);
+        // MON-34
         let wait_ns = without_ns.saturating_mul(9).saturating_sub(of_use_ns);
+        // MON-38
         let again_ns = i64::try_from(now_ns.saturating_add(wait_ns)).unwrap_or(i64::MAX);
         (wait_ns > 0).then_some(again_ns)
     }
@@ -44,13 +48,17 @@ impl Served {
     /// that counts, time counts from there; one that is set back by less feeds no group. In a group
     /// that is local this means nothing: a session begins anew.
     pub fn cycle(&mut self, now_ns: i64, has_current: bool, dt_max_ns: i64) {
+        // MON-33, MON-63
         let is_fed = has_current || now_ns < self.last_ns;
+        // MON-35, MON-36
         if has_current {
             self.first_ns = self.first_ns.or(Some(now_ns));
             self.last_ns = now_ns;
         }
+        // MON-37
         self.first_ns = self.first_ns.map(|first_ns| first_ns.min(now_ns));
         self.last_ns = self.last_ns.min(now_ns);
+        // MON-31
         let is_long = now_ns.abs_diff(self.last_ns) > dt_max_ns.unsigned_abs();
         self.is_starved = !is_fed && (self.is_starved || is_long);
     }
@@ -71,10 +79,11 @@ impl PerGroup<Served> {
         let Event { t_ns, kind } = *event;
         if matches!(kind, EventKind::Tick) {
             if is_blind {
+                // MON-44
                 requester.hold(t_ns.saturating_add(1));
             }
             for group in Group::ALL {
-                // A hold that begins at a tick bars the requests of that tick.
+                // MON-64: a hold that begins at a tick bars the requests of that tick.
                 if requester.is_silent(group, t_ns) {
                     self.get(group).hold_after(requester, t_ns, &period_ns);
                 }
@@ -100,6 +109,7 @@ impl PerGroup<Served> {
             if session == served.session {
                 continue;
             }
+            // MON-34
             if served.session.is_some() {
                 served.hold_after(requester, t_ns, &period_ns);
             }

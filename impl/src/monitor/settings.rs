@@ -114,31 +114,37 @@ impl Settings {
     /// Errors: the first of these settings that no monitor keeps. Source:
     /// `spec/monitor.md#monitor`.
     pub fn check(&self) -> Result<(), MonitorError> {
+        // MON-23
         check_parameters(&self.stages).map_err(MonitorError::Stages)?;
         let dt_max_ns = self.requester.dt_max_ns;
+        // MON-62
         if self.period.is_zero() {
             return Err(MonitorError::NoPeriod);
         }
+        // MON-24, MON-25
         if let Some((field, ns)) = self.too_short() {
             return Err(MonitorError::TimeTooShort { field, ns });
         }
         let [max_age_ns, l_max_ns] = [self.stages.max_age_ns, self.requester.l_max_ns];
+        // MON-26
         if max_age_ns < l_max_ns {
             return Err(MonitorError::MaxAgeBelowLMax { max_age_ns, l_max_ns });
         }
-        // A negative dt_max is refused by the requester.
+        // MON-22; a negative dt_max is refused by the requester.
         if u128::try_from(dt_max_ns).is_ok_and(|dt_max_ns| dt_max_ns <= self.period.as_nanos()) {
             return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
         }
         let tau = self.stages.tau;
-        // Both reckon the way to stop from one cycle to the next that can fail.
+        // MON-27: both reckon the way to stop from one cycle to the next that can fail.
         let stops = self.profile.has(HardenedRule::H04) || self.profile.has(HardenedRule::H14);
         if stops && tau <= self.period.as_secs_f64() {
             return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
         }
+        // MON-29
         if !(0..i64::MAX).contains(&self.sessions_before) {
             return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
         }
+        // MON-60
         if let Some(Stall { way_m, time }) = self.stall {
             let is_way = (0.0..f64::INFINITY).contains(&way_m);
             if !is_way || time.as_nanos() < u128::from(LEAST_WAIT_NS.unsigned_abs()) {
@@ -148,7 +154,7 @@ impl Settings {
         if self.meant == u32::MAX {
             return Ok(());
         }
-        // A time below 0 is refused by the requester.
+        // IMPL-14; a time below 0 is refused by the requester.
         let mut rows = bits().zip(self.rows()).filter(|(_, row)| row.value >= 0.0);
         let not_meant = rows.find(|(bit, row)| self.meant & bit == 0 && is_unusual(row));
         not_meant.map_or(Ok(()), |(_, row)| Err(MonitorError::Unusual(row)))
@@ -159,8 +165,10 @@ impl Settings {
     /// Until when what a cycle examines covers the CAV: `tau` after it, which the paper profile does not have.
     #[allow(clippy::cast_possible_truncation, reason = "rounded down; times saturate")]
     pub(crate) fn brake_by(&self, now_ns: i64) -> Option<Time> {
+        // MON-40
         let tau_ns = (self.stages.tau * 1e9) as i64;
         let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
+        // MON-41
         self.profile.has(HardenedRule::H14).then(by)
     }
 
@@ -200,6 +208,7 @@ impl Settings {
         if steps <= in_time {
             return Ok(());
         }
+        // IMPL-12
         let too_long = counts.too_long(stages, in_time, among);
         let (list, given, most) = too_long.unwrap_or(("check_time", 0, 0));
         Err(MonitorError::TooSlow { list, given, most, steps, most_steps: in_time })

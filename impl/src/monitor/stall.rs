@@ -46,9 +46,11 @@ impl Progress {
             let [dx, dy] = [x - self.place[0], y - self.place[1]];
             dx * dx + dy * dy > way_m * way_m
         };
+        // MON-55
         if let Some(place) = place.filter(is_beyond) {
             (self.place, self.remote_ns) = (place, 0);
         }
+        // MON-56
         let since_ns = self.last_ns.map_or(0, |last_ns| now_ns.saturating_sub(last_ns));
         self.last_ns = is_remote.then_some(now_ns);
         if is_remote {

@@ -23,6 +23,7 @@ pub struct Unusual {
 impl fmt::Display for Unusual {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { field, value, least, most } = self;
+        // IMPL-15
         write!(
             f,
             "settings.{field} = {value} is not from {least} to {most}, as road vehicles have it; "
@@ -39,6 +40,7 @@ pub(super) fn rows(
     period: Duration,
     step_ps: u64,
 ) -> [Unusual; 24] {
+    // IMPL-14
     const MS: f64 = 1e6;
     const S: f64 = 1e9;
     let row = |field, value, [least, most]: [f64; 2]| Unusual { field, value, least, most };

@@ -9,7 +9,7 @@ use crate::numbers::rounding::Real;
 pub(crate) struct Rectangle {
     /// Centre, m.
     pub(crate) centre: Vector,
-    /// (cos, sin) as given, not normalised.
+    /// (cos, sin) as given, not normalised (DOM-03).
     pub(crate) direction: Vector,
     /// Length L, m.
     pub(crate) length: f64,

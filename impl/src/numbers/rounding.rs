@@ -130,6 +130,7 @@ impl Real {
             let root = libm::sqrt((top * BOUND_UP + self.err) * BOUND_UP);
             return Self { hi: 0.0, lo: 0.0, err: root * BOUND_UP };
         }
+        // IMPL-06
         let first = libm::sqrt(self.hi);
         let second = (self - Self::new(first).squared()).hi / (2.0 * first);
         let (hi, lo) = two_sum(first, second);
@@ -140,6 +141,7 @@ impl Real {
 
     /// self < other for every pair of numbers that the two may stand for.
     pub(crate) fn certainly_below(self, other: Self) -> bool {
+        // IMPL-01, IMPL-02
         let gap = other - self;
         gap.hi * CENTRE_DOWN > gap.err
     }

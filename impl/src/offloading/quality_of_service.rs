@@ -79,13 +79,16 @@ impl Arrivals {
     /// order. `now_ns`: arrival time; `generated_ns`: generation time. Source:
     /// `spec/2-offloading.md#quality-of-service`.
     pub fn arrive(&mut self, now_ns: i64, generated_ns: i64, limits: Limits) -> Element {
+        // QOS-02
         if let Some(violation) = latency_violation(now_ns, generated_ns, limits) {
             return Element::Violating(violation);
         }
         if let Some(violation) = self.silence(now_ns, limits) {
             return Element::Violating(violation);
         }
+        // QOS-01
         self.last_arrival_ns = now_ns;
+        // QOS-08
         if self.last_used_ns.is_some_and(|last_ns| generated_ns <= last_ns) {
             return Element::Stale;
         }
@@ -97,6 +100,7 @@ impl Arrivals {
     /// `dt_max`. `now_ns`: time of the tick or of the arrival. Source:
     /// `spec/2-offloading.md#quality-of-service`.
     pub fn silence(&self, now_ns: i64, limits: Limits) -> Option<Violation> {
+        // QOS-03
         (difference(now_ns, self.last_arrival_ns) > i128::from(limits.dt_max_ns))
             .then_some(Violation::InterArrival)
     }
@@ -105,9 +109,11 @@ impl Arrivals {
 /// The violation, if an element that was generated at `generated_ns` and arrives at `now_ns` is
 /// too old or from the future. Source: `spec/2-offloading.md#quality-of-service`.
 pub fn latency_violation(now_ns: i64, generated_ns: i64, limits: Limits) -> Option<Violation> {
+    // QOS-05
     if generated_ns > now_ns {
         Some(Violation::FromTheFuture)
     } else if difference(now_ns, generated_ns) > i128::from(limits.l_max_ns) {
+        // QOS-03
         Some(Violation::Latency)
     } else {
         None
@@ -116,6 +122,7 @@ pub fn latency_violation(now_ns: i64, generated_ns: i64, limits: Limits) -> Opti
 
 /// `later - earlier`, exact: the difference of two 64-bit times fits in 65 bits.
 fn difference(later_ns: i64, earlier_ns: i64) -> i128 {
+    // FALL-10
     i128::from(later_ns).saturating_sub(i128::from(earlier_ns))
 }
 

@@ -86,6 +86,7 @@ impl core::error::Error for RequesterError {}
 pub struct Requester<'a> {
     profile: Profile,
     parameters: Parameters,
+    // REQ-26
     slots: PerGroup<Slot>,
     hold_until_ns: Option<i64>,
     area: Groups,
@@ -112,6 +113,7 @@ impl<'a> Requester<'a> {
             parameters,
             slots: PerGroup::new(Slot::Local, Slot::Local),
             hold_until_ns: None,
+            // REQ-17
             area: Groups::ALL,
             sessions: 0,
             dropped: PerGroup::new(0, 0),

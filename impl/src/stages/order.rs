@@ -25,6 +25,7 @@ pub struct Given {
 /// Whether data with this stamp are current: 0 <= now - stamp <= `max_age`, all in ns, `max_age` at
 /// most 60 s. Source: `spec/3-stages.md#schedule`.
 pub fn is_current(stamp_ns: i64, now_ns: i64, max_age_ns: i64) -> bool {
+    // SCHED-12
     let age_ns = elapsed_ns(stamp_ns, now_ns);
     0 <= age_ns && age_ns <= max_age_ns
 }
@@ -83,6 +84,7 @@ const fn scheduled(configuration: Configuration, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
     match (stage, configuration) {
+        // SCHED-01, SCHED-06
         (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
         (Stage::I, MotRemote | AllRemote)
         | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
@@ -112,6 +114,7 @@ pub(crate) fn in_order(
     mut fails: impl FnMut(Stage, Option<Idle>) -> bool,
 ) -> Past {
     let mut past = Past { failed: None, ran_iii: false, ran_iv: false, ran_v: false };
+    // SCHED-02
     for (stage, scheduled) in Stage::ALL.into_iter().zip(schedule.stages) {
         let idle = past.idle(schedule.others_replace_v, given, (stage, scheduled));
         let runs = idle.is_none();
@@ -137,14 +140,19 @@ impl Past {
         given: Given,
         (stage, scheduled): (Stage, Scheduled),
     ) -> Option<Idle> {
+        // SCHED-15
         match (scheduled, missing(given, stage)) {
             (Scheduled::Never, _) => Some(Idle::NotScheduled),
+            // SCHED-03
             _ if self.failed.is_some() => Some(Idle::Skipped(Reason::AfterFailure)),
             (Scheduled::Conditional, _) if self.replaces(others_replace_v, stage) => {
                 Some(Idle::Skipped(Reason::OtherStageRan))
             }
+            // SCHED-11
             (Scheduled::Conditional, Some(input)) => Some(Idle::Skipped(Reason::NoCurrent(input))),
+            // SCHED-10
             (Scheduled::Always, Some(input)) => Some(Idle::NotApplicable(input)),
+            // SCHED-07
             (Scheduled::Always | Scheduled::Conditional, None) => None,
         }
     }
@@ -153,7 +161,9 @@ impl Past {
     const fn replaces(self, others_replace_v: bool, stage: Stage) -> bool {
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
+            // SCHED-08
             Stage::Iv => self.ran_iii,
+            // SCHED-09
             Stage::V => (self.ran_iii || self.ran_iv) && others_replace_v,
         }
     }
@@ -163,12 +173,15 @@ impl Past {
 const fn missing(given: Given, stage: Stage) -> Option<Input> {
     let Given { tracks_of_any_age, tracks, trajectory, detections, grid } = given;
     let [first, second] = match stage {
+        // SCHED-04
         Stage::I => [(tracks_of_any_age, Input::Tracks), (detections, Input::Detections)],
+        // SCHED-05
         Stage::Ii => [(trajectory, Input::Trajectory); 2],
         Stage::Iii => [(trajectory, Input::Trajectory), (tracks, Input::Tracks)],
         Stage::Iv => [(trajectory, Input::Trajectory), (detections, Input::Detections)],
         Stage::V => [(trajectory, Input::Trajectory), (grid, Input::Grid)],
     };
+    // SCHED-16
     match (first, second) {
         ((false, input), _) | (_, (false, input)) => Some(input),
         ((true, _), (true, _)) => None,

@@ -9,6 +9,7 @@ use crate::report::{InvalidInput, Problem};
 pub(super) type Check = Result<(), InvalidInput>;
 
 /// 60 s, beyond which a stamp is out of the domain.
+// DOM-01
 pub(super) const HORIZON_NS: i64 = 60_000_000_000;
 
 pub(super) const POSITION: [f64; 2] = [-16_777_216.0, 16_777_216.0];
@@ -30,6 +31,7 @@ impl Place {
 
     /// NaN is not finite; every other value is compared with both ends of its domain.
     pub(super) fn f64(self, field: &'static str, value: f64, [least, most]: [f64; 2]) -> Check {
+        // IMPL-05, INPUT-04
         if !value.is_finite() {
             return self.problem(field, Problem::NotFinite);
         }

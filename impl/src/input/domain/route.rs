@@ -23,6 +23,7 @@ pub(crate) fn check_route(route: &Route<'_>) -> Check {
         for value in cross_section.right {
             at.f64("route.stations.right", value, POSITION)?;
         }
+        // INPUT-04
         if before.is_some_and(|before| same_point(before, [cross_section.x, cross_section.y])) {
             return at.problem("route.stations.x", Problem::EqualPoints);
         }

@@ -112,6 +112,7 @@ impl EventKind {
     pub const fn of_cycle(answer: &Result<Report, InvalidInput>, sessions: Sessions) -> Self {
         let safe = match answer {
             Ok(report) => report.failed_stage.is_none(),
+            // FALL-11
             Err(_) => false,
         };
         Self::Verdict { safe, sessions }
@@ -238,6 +239,7 @@ impl Outbox {
 
     /// The actions of MOT and PLAN, kind by kind in the order of `spec/2-offloading.md#fallback`.
     pub(super) fn by_kind(&self) -> ByKind {
+        // FALL-13
         let of = |kind: &PerGroup<Option<Action>>| [*kind.get(Group::Mot), *kind.get(Group::Plan)];
         [of(&self.drops), of(&self.releases), of(&self.services), of(&self.requests)]
     }
@@ -261,6 +263,7 @@ impl Actions {
     /// for.
     pub(crate) fn and(self, later: &Self) -> Self {
         let mut both = Self::NONE;
+        // FALL-13
         for kind in 0..4 {
             for is_plan in [false, true] {
                 let here = |action: &&Action| action.place() == (kind, is_plan);

@@ -39,6 +39,7 @@ macro_rules! fields {
 
         impl Default for Parameters {
             fn default() -> Self {
+                // DOM-02
                 Self { $($name: $default,)* }
             }
         }
@@ -46,6 +47,7 @@ macro_rules! fields {
         impl Parameters {
             /// The first time below 0.
             pub(super) fn negative(&self) -> Option<&'static str> {
+                // DOM-01
                 $(if i64::from(self.$name) < 0 {
                     return Some(stringify!($name));
                 })*

@@ -43,6 +43,7 @@ impl Slot {
         station: i64,
         session: i64,
     ) -> Self {
+        // CONF-02, CONF-03
         let local_computes = profile.has(HardenedRule::H08);
         let arrivals = Arrivals::since_activation(now_ns);
         Self::Remote { station, session, arrivals, local_computes }
@@ -81,6 +82,7 @@ impl Slot {
             Self::Local | Self::Requested { .. } => None,
             Self::Remote { station, .. } => Some(station),
         };
+        // CONF-01
         Source::of(self.local_computes(), remote)
     }
 

@@ -45,6 +45,7 @@ impl StationRecord {
 
     /// Whether nothing has to be remembered of the station.
     const fn is_free(&self) -> bool {
+        // REQ-09
         self.offer.is_empty()
             && self.last_request(Group::Mot).is_none()
             && self.last_request(Group::Plan).is_none()
@@ -106,6 +107,7 @@ impl<'a> Stations<'a> {
         let offering = self.records.iter().filter(|record| record.offer.contains(group));
         // The session 0 of a station never asked is below every other, and no two stations
         // share another one, so ids decide among stations never asked and nowhere else.
+        // REQ-07, REQ-08
         let order = |record: &&StationRecord| (*record.last_request.get(group), record.station);
         offering.min_by_key(order).map(|record| record.station)
     }

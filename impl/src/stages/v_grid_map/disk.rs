@@ -61,6 +61,7 @@ impl GridGeometry {
         let centre = pose.at + vector(pose.heading).times(shift);
         let relative = centre - self.origin;
         Disk {
+            // DOM-04
             column: relative.dot(self.direction).over(self.norm_squared),
             row: self.direction.cross(relative).over(self.norm_squared),
             pose,
