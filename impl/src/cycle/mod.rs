@@ -160,7 +160,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     /// What the CAV saw of the tracks, into the scratch: of those of the remote MOT, whatever their age,
-    /// and of its own in `PlanRemote`.
+    /// and of its own in `PlanRemote` (SEEN-03).
     fn look_back(&self, scratch: &mut Scratch<'_>) -> Seen {
         let tracks = match self.cycle.configuration {
             Configuration::PlanRemote => self.current.tracks,
@@ -225,6 +225,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let detections = self.current.detections.ok_or(Input::Detections)?;
         let lead = self.current.lead;
         let found = trajectory_with_detections(self.cycle, trajectory, detections, lead);
+        // H-14.46
         Ok(found.or_else(|| self.fail_safe(seen, scratch)))
     }
 
@@ -236,6 +237,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             return None;
         }
         let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
+        // H-04.2, H-14.46
         gap_failure(lead, |lead| s_react(self.cycle, lead))
             .or_else(|| self.fail_safe(seen, scratch))
     }
@@ -310,6 +312,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
             Turn::Rest(idle) => idle.into(),
             Turn::Gap(idle) => {
                 let found = valid.instead_of_iv(seen, scratch);
+                // H-04.4, H-14.47
                 found.map_or_else(|| idle.into(), Outcome::Failed)
             }
             Turn::Run => outcome(match stage {
