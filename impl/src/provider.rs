@@ -134,9 +134,10 @@ impl<'s> Precheck<'s> {
         tracks: &'t mut [Track],
         mut left_out: impl FnMut(&Track, Failure),
     ) -> Result<Option<Kept<'t>>, InvalidInput> {
-        // The memory has to hold all of them, whichever are kept.
+        // PRE-08: the memory has to hold all of them, whichever are kept.
         Scratch::new(self.rows, self.columns)
             .fits(&Cycle { tracks: Some(TrackList { stamp_ns, items: tracks }), ..*cycle })?;
+        // PRE-03
         if let Some(why) = self.tracks_failure(cycle, stamp_ns, &[])? {
             tracks.iter().for_each(|track| left_out(track, why));
             return Ok(None);
@@ -145,6 +146,7 @@ impl<'s> Precheck<'s> {
         for index in 0..tracks.len() {
             let alone = tracks.get(index..=index).unwrap_or_default();
             if let (Some(why), [track]) = (self.tracks_failure(cycle, stamp_ns, alone)?, alone) {
+                // PRE-02, PRE-04
                 left_out(track, why);
             } else {
                 exchange(tracks, kept, index);
@@ -183,6 +185,7 @@ impl<'s> Precheck<'s> {
             exchange(tracks, kept, index);
             let now = tracks.get(..=kept).unwrap_or_default();
             match (self.tracks_failure(cycle, stamp_ns, now)?, now.last()) {
+                // PRE-02, PRE-04
                 (Some(why), Some(track)) => left_out(track, why),
                 (None, _) | (_, None) => kept = kept.saturating_add(1),
             }
@@ -205,10 +208,13 @@ impl<'s> Precheck<'s> {
         for (index, candidate) in candidates.into_iter().enumerate() {
             let trajectory = Trajectory { stamp_ns, points: candidate.as_ref() };
             match self.failure(cycle, Some(trajectory), cycle.tracks)? {
+                // PRE-05
                 None => return Ok(Some((index, candidate))),
+                // PRE-06
                 Some(why) => rejected(index, why),
             }
         }
+        // PRE-07
         Ok(None)
     }
 
@@ -230,6 +236,7 @@ impl<'s> Precheck<'s> {
         tracks: Option<TrackList<'c>>,
     ) -> Result<Option<Failure>, InvalidInput> {
         let cycle = Cycle { trajectory, tracks, ..*cycle };
+        // PRE-01
         let report = check(&cycle, &mut Scratch::new(self.rows, self.columns))?;
         Ok(Failure::of(&report))
     }

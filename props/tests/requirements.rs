@@ -1,14 +1,17 @@
 //! Every requirement of `spec/` has an id, is cited, and stays what it was when it was cited.
 //!
 //! `**[DIST-02]**` in the text names a requirement (`tree/ids.rs`); comments and strings of tests and
-//! of `proofs/`, and `requirement` and `flag` of vectors, cite it. `spec/requirements.lock` holds a
-//! hash of each requirement and, of each citation, the hash of what was confirmed. Who changes a
-//! sentence reads what cites it and confirms it, id by id:
+//! of `proofs/`, `requirement` and `flag` of vectors, and comments of the code cite it.
+//! `spec/requirements.lock` holds a hash of each requirement and, of each citation, the hash of what was
+//! confirmed. Who changes a sentence reads what cites it and confirms it, id by id:
 //! `CONFIRM=DIST-02,H-04.1 cargo test -p mufasa-props --test requirements`.
-//! With `-- --nocapture` the table of requirements and citations is printed.
+//! This, and `UPDATE_MATRIX=1`, writes `docs/requirements.csv`, a row for each requirement. With
+//! `-- --nocapture` the table of requirements and citations is printed.
 
 #[path = "tree/citations.rs"]
 mod citations;
+#[path = "tree/code.rs"]
+mod code;
 #[path = "tree/hash.rs"]
 mod hash;
 #[path = "tree/ids.rs"]
@@ -22,12 +25,15 @@ mod tree;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use citations::{Citations, citations, strangers};
+use citations::{Citations, citations, is_code, strangers};
+use code::{matrix, not_implemented};
 use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
 use lock::Lock;
 use tree::Tree;
 
 const LOCK: &str = "spec/requirements.lock";
+
+const MATRIX: &str = "docs/requirements.csv";
 
 /// Ids that stand twice, lines with a MUST that have none, and prefixes that stand elsewhere than the
 /// table of prefixes says, or nowhere.
@@ -61,7 +67,8 @@ fn not_cited(found: &[Requirement], cited: &Citations) -> Vec<String> {
         let by = cited.get(rule(id)).into_iter().flatten();
         by.into_iter().any(|it| it.starts_with("vectors/"))
     };
-    let without = found.iter().filter(|it| !cited.contains_key(&it.id) && !of_rule(&it.id));
+    let tested = |id: &str| cited.get(id).into_iter().flatten().any(|by| !is_code(by));
+    let without = found.iter().filter(|it| !tested(&it.id) && !of_rule(&it.id));
     without.map(|it| format!("{}: {}", it.id, it.text)).collect()
 }
 
@@ -82,6 +89,25 @@ fn every_requirement_is_cited_by_a_test_a_vector_or_a_proof() {
     }
     let wrong = not_cited(&found, &cited);
     assert!(wrong.is_empty(), "requirements without a test: {wrong:#?}");
+}
+
+#[test]
+fn every_requirement_is_implemented_somewhere() {
+    let tree = Tree::here();
+    let wrong = not_implemented(&tree, &requirements(&tree).0, &citations(&tree));
+    assert!(wrong.is_empty(), "\n{}\n\nsee CONTRIBUTING.md, Requirements", wrong.join("\n"));
+}
+
+#[test]
+fn the_matrix_is_what_the_sources_say() {
+    let tree = Tree::here();
+    let matrix = matrix(&tree, &requirements(&tree).0, &citations(&tree));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(MATRIX);
+    if ["UPDATE_MATRIX", "CONFIRM"].iter().any(|name| std::env::var_os(name).is_some()) {
+        std::fs::write(&file, &matrix).expect("the matrix can be written");
+    }
+    let kept = std::fs::read_to_string(&file).unwrap_or_default();
+    assert!(kept == matrix, "{MATRIX} is old: UPDATE_MATRIX=1 and this test again");
 }
 
 #[test]
@@ -165,6 +191,10 @@ mod tests {
         let second = ["H-04.1: So MUST it."];
         assert_eq!(judged("a/tests/b.rs", "// A-01, H-04\n#[test]\nfn f() {}\n")[0], second);
         assert_eq!(judged("a/src/b.rs", "/// A-01, H-04.1\nfn f() {}\n")[0].len(), 2);
+        // Neither is code; but the tests at its end are.
+        let code =
+            "// A-01, H-04.1\nfn f() {}\n#[cfg(test)]\nmod tests {\n    // A-01\n    #[test]\n}\n";
+        assert_eq!(judged("impl/src/b.rs", code)[0], second);
 
         let stranger = |path: &str| format!("{path}: A-09 is no requirement");
         assert_eq!(judged("a/src/b.rs", "// A-09, B-01")[1], [stranger("a/src/b.rs")]);

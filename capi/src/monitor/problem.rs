@@ -2,9 +2,9 @@
 
 use core::ffi::c_char;
 
-use mufasa::report::InvalidInput;
 use mufasa::monitor::{MonitorError, Unusual};
 use mufasa::offloading::requester::{Requester, RequesterError};
+use mufasa::report::InvalidInput;
 
 use super::place::{MufasaMonitor, Sizes};
 use super::settings::{MufasaMonitorSettings, refused};

@@ -41,7 +41,7 @@ pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, Inv
     check_with(cycle, &Indexes::default(), scratch)
 }
 
-/// As `check`, with the index of the cycle's route: the same stations in the same memory. An index
+/// As `check`, with the index of the cycle's route: the same cross sections in the same memory. An index
 /// of another route is not used. The answer is the same. Source:
 /// `spec/3-stages.md#stage-ii-trajectory-to-map`.
 pub fn check_indexed<'a>(
@@ -151,7 +151,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
-    /// an input of it is not current. H-14 is part of stages ii and iv, and its places of stage v.
+    /// an input of it is not current. H-14 is part of stages ii and iv, and its places of stage v. Stage iv
+    /// tells `ambiguous` first here, and behind the gap in a cycle (H-14.46).
     /// Source: `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
         let found = match stage {
@@ -173,7 +174,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     /// What the CAV saw of the tracks, into the scratch: of those of the remote MOT, whatever their age,
-    /// and of its own in `PlanRemote`.
+    /// and of its own in `PlanRemote` (SEEN-03).
     fn look_back(&self, scratch: &mut Scratch<'_>) -> Seen {
         let tracks = match self.cycle.configuration {
             Configuration::PlanRemote => self.current.tracks,
@@ -238,6 +239,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let detections = self.current.detections.ok_or(Input::Detections)?;
         let lead = self.current.lead;
         let found = trajectory_with_detections(self.cycle, trajectory, detections, lead);
+        // H-14.46
         Ok(found.or_else(|| self.fail_safe(seen, scratch)))
     }
 
@@ -249,6 +251,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             return None;
         }
         let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
+        // H-04.2, H-14.46
         gap_failure(lead, |lead| s_react(self.cycle, lead))
             .or_else(|| self.fail_safe(seen, scratch))
     }
@@ -323,6 +326,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
             Turn::Rest(idle) => idle.into(),
             Turn::Gap(idle) => {
                 let found = valid.instead_of_iv(seen, scratch);
+                // H-04.4, H-14.47
                 found.map_or_else(|| idle.into(), Outcome::Failed)
             }
             Turn::Run => outcome(match stage {

@@ -1,5 +1,5 @@
 //! What the CAV saw itself: which received tracks are backed and confirmed by its own earlier
-//! detections (SEEN-01 to SEEN-17, `spec/hardened/what-the-cav-saw.md`).
+//! detections (`spec/hardened/what-the-cav-saw.md`).
 //!
 //! Plain doubles: places are differences of given coordinates and of v t, so that a distance of up
 //! to a few km errs by less than 1e-10 m, and `CLOSE` is more. What is closer than that is not
@@ -46,12 +46,12 @@ pub(crate) struct UsableList<'a> {
 }
 
 impl UsableList<'_> {
-    /// How far from the past of a track its origin may be, m.
+    /// How far from the past of a track its origin may be (SEEN-06), m.
     pub(crate) fn reach(&self, cycle: &Cycle<'_>) -> f64 {
         cycle.parameters.theta_track_max + cycle.parameters.theta_velocity * self.age
     }
 
-    /// By how much the age is not 500 ms, then the age.
+    /// By how much the age is not 500 ms, then the age (SEEN-02).
     fn order(&self) -> (u64, i64) {
         (self.age_ns.abs_diff(REFERENCE_AGE_NS), self.age_ns)
     }
@@ -80,6 +80,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         if let Some(current) = detections.filter(|_| cycle.profile.looks_back()) {
             for (place, list) in usable.iter_mut().zip(cycle.detection_history) {
                 let age_ns = elapsed_ns(list.stamp_ns, current.stamp_ns);
+                // SEEN-01
                 let is_usable = least_ns <= age_ns
                     && age_ns <= most_ns
                     && elapsed_ns(list.stamp_ns, cycle.now_ns) <= OLDEST_NS;
@@ -95,7 +96,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         Self { detections, index, usable, by_reference_age: by_reference_age(&usable) }
     }
 
-    /// The place of the reference list.
+    /// The place of the reference list (SEEN-02).
     pub(crate) fn reference(&self) -> Option<usize> {
         self.by_reference_age().next()
     }
@@ -120,12 +121,14 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         if self.usable.iter().flatten().count() < 2 {
             return Seen::Open;
         }
+        // SEEN-04
         let since_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
         for (number, place) in self.by_reference_age().enumerate() {
             let Some(list) = self.usable.get(place).copied().flatten() else { continue };
             if number >= 2 && scratch.rows.iter().take(count).all(Row::has_own_origins) {
                 break;
             }
+            // SEEN-05
             let then_ns = since_ns.saturating_sub(list.age_ns);
             let list_of = (list.items, list.index);
             let search = Search::new(list_of, list.reach(cycle), then_ns, scratch.columns);
@@ -135,6 +138,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
                 return Seen::Unclear(witness);
             }
         }
+        // SEEN-09
         let limit = cycle.parameters.theta_track_max;
         let list_of = (detections.items, self.index);
         let search = Search::new(list_of, limit, since_ns, scratch.columns);
@@ -250,8 +254,8 @@ impl<'a> Judge<'a> {
         Self { parameters, detections, slow: slow * slow, straight }
     }
 
-    /// Whether a track is backed and confirmed; the witness when that is too close to call. With
-    /// `judge_closely` alone stage i of W1 takes 6 % more instructions.
+    /// Whether a track is backed and confirmed (SEEN-08, SEEN-10, SEEN-11); the witness when that
+    /// is too close to call. With `judge_closely` alone stage i of W1 takes 6 % more instructions.
     #[inline]
     fn judge(&self, track: &Track, row: &mut Row) -> Option<Witness> {
         let squared = track.vx * track.vx + track.vy * track.vy;
@@ -281,6 +285,7 @@ impl<'a> Judge<'a> {
             return None;
         }
         row.seen |= BACKED;
+        // SEEN-10, SEEN-11
         let detection = self.detections.get(usize::from(row.own_detection()?))?;
         if detection.length > 1.0 {
             let across = across(track, detection);

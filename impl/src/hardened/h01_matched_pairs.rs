@@ -15,7 +15,8 @@ use crate::stages::i_track_validation::pairing::PairLimits;
 use crate::stages::i_track_validation::pairs::{Pair, Pairs, Place};
 use crate::stages::i_track_validation::places::Places;
 
-/// What the pairs have to keep: all but `miss_budget` closer than `theta_track_max`.
+/// What the pairs have to keep: all but `miss_budget` (H-01.2), which have to be backed (H-01.3), closer
+/// than `theta_track_max`.
 pub(crate) fn pair_limits(cycle: &Cycle<'_>) -> PairLimits {
     let (theta_tr, limit) = (cycle.parameters.theta_tr, cycle.parameters.theta_track_max);
     PairLimits { limit, theta_tr, spare: budget(cycle), may_be_left: is_backed }
@@ -35,6 +36,7 @@ pub(crate) fn matched_tracks(
     detections: &DetectionList<'_>,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
+    // H-01.1
     let places = Places::at(tracks, detections.stamp_ns);
     let gated = gated_but_not_paired(cycle, &places, detections, pair_limits(cycle), scratch)?;
     matched_pairs(cycle, places, detections, gated, scratch)
@@ -53,10 +55,13 @@ fn matched_pairs(
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
     let backed = (0..gated).filter(|&row| is_row_backed(scratch.rows, row)).count();
+    // H-01.2
     let spare = budget(cycle).min(backed);
+    // H-01.4: no track has to remain
     if spare == gated {
         return None;
     }
+    // H-01.5
     let count = detections.items.len().saturating_add(spare);
     if let Some(witness) = over_work_limit(cycle, gated, count) {
         return Some(witness);
@@ -68,6 +73,7 @@ fn matched_pairs(
     let assigned = assign(scratch.rows, gated, columns, &matched);
     if let (true, Some(left)) = (assigned == gated, matched.left_out(scratch.rows, columns)) {
         let k = gated.saturating_sub(left);
+        // H-01.4
         return mean_cost_failure(cycle, &matched.pairs, scratch.rows, columns, k);
     }
     // The first track that is near no detection and may not be left out; else several compete, and no one of
@@ -105,6 +111,7 @@ impl Costs for MatchedPairs<'_> {
 
     fn cost(&self, rows: &[Row], place: Place, column: usize) -> Option<i64> {
         let Some(metres) = self.pairs.metres(rows, place, column) else {
+            // H-01.3
             return is_row_backed(rows, place.row).then(|| self.pairs.units(self.left_out));
         };
         certainly_closer(metres, self.limit).then(|| self.pairs.units(metres))

@@ -15,8 +15,10 @@ pub(crate) fn hardened(
 ) -> Schedule {
     let [h05, h10] = [HardenedRule::H05, HardenedRule::H10].map(|rule| profile.has(rule));
     let [i, ii, iii, iv, v] = schedule.stages;
+    // H-05.1, H-10.1
     let has_v = configuration == Configuration::PlanRemote && (h05 || h10);
     let v = if has_v { Scheduled::Conditional } else { v };
+    // H-02.1, H-02.2: stage iii stays as it is. H-10.1: stage v runs beside it
     Schedule { stages: [i, ii, iii, iv, v], others_replace_v: !h10 }
 }
 
@@ -31,7 +33,9 @@ pub(crate) fn no_obstacle_check(
     let Past { ran_iii, ran_iv, ran_v, .. } = past;
     let asks_stage_i = profile.has(HardenedRule::H02) && configuration == Configuration::AllRemote;
     let has_stage_i = given.detections && profile.runs(Stage::I);
+    // H-02.3
     let checked_iii = ran_iii && (!asks_stage_i || has_stage_i);
+    // H-05.2; the gap of stage iv (H-04.3) and the fail-safe rule (H-14.53) are no run of it
     let applies =
         profile.has(HardenedRule::H05) && configuration != Configuration::Local && given.trajectory;
     let fails = applies && !(checked_iii || ran_iv || ran_v);

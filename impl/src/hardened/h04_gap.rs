@@ -9,7 +9,7 @@ use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 
 /// `s_react` = max(`s_stop` - `s_b(v_lead)`, 0), m: what the CAV needs more than a leader that
-/// brakes, to stop.
+/// brakes, to stop (H-04.2).
 pub(crate) fn s_react(cycle: &Cycle<'_>, lead: &Lead) -> Real {
     let s_stop = Times::<Real>::new(cycle).s_stop;
     (s_stop - s_b(&cycle.parameters, Real::new(lead.speed))).max(Real::ZERO)

@@ -34,6 +34,7 @@ pub(crate) fn closed_cells(
     let examined = Examined { cycle, points, places, covered };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
     let found = examined.touched(Rule::Occupied, &occupied);
+    // H-06.5, H-06.6
     if detections.is_some() {
         return found;
     }
@@ -57,6 +58,7 @@ impl Examined<'_, '_> {
     /// where the paper examines the grid beside every other stage. Where nothing is detected, the disks
     /// are all that is left.
     fn touched(&self, rule: Rule, cells: &Bitmap<'_>) -> Option<Witness> {
+        // H-06.2; H-06.4: in `MotRemote` at the points, too
         let at_places = !self.covered.items.is_empty();
         let at_points = at_places && self.cycle.configuration != Configuration::MotRemote;
         let at = |asks_rectangle| {
@@ -96,9 +98,11 @@ impl Examined<'_, '_> {
         let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
         let mut latest = 0;
         grid.touched(disk, cells, |i, k| {
+            // H-06.2
             if !asks_rectangle {
                 return grid.hit(disk, i, k);
             }
+            // H-06.3, with the CAV as wide as it is: H-14.27
             if cav.certainly_apart(&plain_square(covered.grid, i, k))
                 || covered.has(i, k, &mut latest)
             {
@@ -157,7 +161,7 @@ impl GridGeometry {
         Some((integer(from), integer(larger(to, 0.0))))
     }
 
-    /// Places outside the grid may be at distance <= r.
+    /// Places outside the grid may be at distance <= r (H-06.6).
     fn outside(&self, disk: &Disk<'_>) -> Option<Hit> {
         let end = |count: i64| Real::integer(count) * self.resolution;
         let columns = disk.column.min(end(self.width) - disk.column);
@@ -167,7 +171,7 @@ impl GridGeometry {
         reaches.then(|| Hit { cell: None, distance: within.value() })
     }
 
-    /// The cell, if its closed square may be at distance <= r.
+    /// The cell, if its closed square may be at distance <= r (H-06.1).
     fn hit(&self, disk: &Disk<'_>, i: i64, k: i64) -> Option<Hit> {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);

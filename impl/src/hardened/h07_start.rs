@@ -18,6 +18,7 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     let first = points.first()?;
     let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
     let max_age_ns = cycle.parameters.max_age_ns;
+    // H-07.1
     if !is_in_time(age_ns, max_age_ns) {
         let compared =
             [age_ns.saturating_abs(), max_age_ns].map(|time_ns| Real::seconds(time_ns).value());
@@ -33,9 +34,12 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     let aside = from_first.cross(heading).abs();
     let at_most = |value: Real, limit: Real| (value, limit, value.certainly_at_most(limit));
     let rules = [
+        // H-07.2
         (Rule::StartPosition, at_most(off, limit)),
+        // H-07.3, H-07.4
         (Rule::StartHeading, (along, Real::ZERO, Real::ZERO.certainly_below(along))),
         (Rule::StartHeading, at_most(turned, Real::new(MOST_TURNED))),
+        // H-07.5
         (Rule::StartOffset, at_most(aside, Real::new(cycle.parameters.lateral_tolerance))),
     ];
     let broken = rules.into_iter().find(|&(_, (.., is_kept))| !is_kept);
@@ -49,7 +53,7 @@ pub(crate) const fn is_in_time(age_ns: i64, max_age_ns: i64) -> bool {
     max_age_ns.saturating_neg() <= age_ns && age_ns <= max_age_ns
 }
 
-/// A point outside the corridor.
+/// A point outside the corridor (H-07.6).
 pub(crate) fn corridor_failure(
     route: IndexedRoute<'_, '_>,
     points: &[TrajectoryPoint],
@@ -62,7 +66,7 @@ pub(crate) fn corridor_failure(
     })
 }
 
-/// A point at which the heading is not certainly along every segment that may be nearest.
+/// A point at which the heading is not certainly along every segment that may be nearest (H-07.7).
 pub(crate) fn direction_failure(
     route: IndexedRoute<'_, '_>,
     points: &[TrajectoryPoint],
@@ -107,6 +111,7 @@ fn not_along(
     near.filter(|segment| !route.is_farther(q, segment, least)).find_map(|segment| {
         let away = segment_distance(q, segment.from, segment.to);
         let along = heading.dot(Vector::between(segment.from, segment.to));
+        // H-07.7
         if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
             return None;
         }

@@ -81,6 +81,7 @@ fn first_broken(
 ) -> Option<(Rule, [f64; 2])> {
     let Parameters { step_max_ns, v_max, .. } = cycle.parameters;
     let dt_ns = elapsed_ns(from.t_ns, to.t_ns);
+    // H-11.1
     if dt_ns > step_max_ns {
         let compared = [dt_ns, step_max_ns].map(|time_ns| Real::seconds(time_ns).value());
         return Some((Rule::StepTime, compared));
@@ -94,13 +95,19 @@ fn first_broken(
     let back = -(Real::new(BACK) * dt);
     let aside = |heading| at_most(u.cross(heading).abs(), Real::new(0.5 * cycle.ego.width));
     let rules = [
+        // H-11.2
         (Rule::StepLength, true, at_most(size, length)),
+        // H-11.3
         (Rule::StepSpeed, true, at_most(size, Real::new(v_max) * dt)),
+        // H-11.4
         (Rule::StepForward, moves, at_least(u.dot(before), back)),
         (Rule::StepForward, moves, at_least(u.dot(after), back)),
+        // H-11.5
         (Rule::StepLateral, true, aside(before)),
         (Rule::StepLateral, true, aside(after)),
+        // H-11.6
         (Rule::StepTurn, true, at_least(before.dot(after), Real::new(LEAST_COSINE))),
+        // H-11.7
         (Rule::StepTurn, true, at_most(before.cross(after).abs(), most_turned(dt, size))),
     ];
     first_of(rules)
@@ -199,6 +206,7 @@ impl<'p> Slide<'p> {
         let t = Real::seconds(elapsed_ns(self.start.t_ns, point.t_ns));
         let bent = Real::new(self.half_length) * bent;
         let left_open = Real::new(SLIDE_STILL) + Real::new(SLIDE_DRIFT) * t;
+        // H-11.8
         let most = bent.abs() + Real::new(SLIDE) * along + left_open;
         first_of([(Rule::Slide, true, at_most((aside + bent).abs(), most))])
     }

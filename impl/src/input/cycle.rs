@@ -19,7 +19,8 @@ pub struct Cycle<'a> {
     pub profile: Profile,
     /// Parameters in force.
     pub parameters: Parameters,
-    /// Time of the decision on the CAV's monotonic clock, ns.
+    /// Time of the decision on the CAV's monotonic clock, ns. With H-14 pose and speed were measured then, or `tau`
+    /// counts their age, too.
     pub now_ns: i64,
     /// Which groups are remote.
     pub configuration: Configuration,

@@ -90,6 +90,7 @@ pub(crate) fn check_lead(lead: &Lead, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("lead.stamp_ns", lead.stamp_ns, now_ns, false)?;
     at.f64("lead.gap", lead.gap, [0.0, 1e6])?;
+    // DIST-02
     at.f64("lead.speed", lead.speed, SPEED)
 }
 

@@ -27,7 +27,8 @@ pub struct Inputs<'c> {
 }
 
 impl<'c> Inputs<'c> {
-    /// Nothing but the time and the CAV itself. Source: `spec/monitor.md#monitor`.
+    /// Nothing but the CAV itself, and when its pose and speed were measured: from then on `tau` and `brake_by` count
+    /// (H-14.14). Source: `spec/monitor.md#monitor`.
     pub const fn new(now: Time, ego: Ego) -> Self {
         Self {
             now,

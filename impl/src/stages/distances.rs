@@ -1,5 +1,5 @@
-//! Distances that a cycle looks ahead (`spec/3-stages.md#distances`), in numbers with error bounds
-//! or in plain doubles.
+//! Distances that a cycle looks ahead (DIST-01, `spec/3-stages.md#distances`), in numbers with
+//! error bounds or in plain doubles.
 
 use crate::input::parameters::Parameters;
 use crate::numbers::range::larger;

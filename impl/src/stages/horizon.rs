@@ -48,8 +48,8 @@ pub(crate) fn points_examined<'a>(
     points.get(..count).unwrap_or(points)
 }
 
-/// How many points are examined: the first, and those after it up to one that is not within s; `None` where that is
-/// open.
+/// How many points are examined: the first (DIST-04), and those after it up to one that is not
+/// within s; `None` where that is open.
 pub(crate) fn prefix(are_within: impl Iterator<Item = Option<bool>>) -> Option<usize> {
     let mut count = 1_usize;
     for is_within in are_within {
@@ -69,6 +69,7 @@ fn steps(points: &[TrajectoryPoint]) -> impl Iterator<Item = (&TrajectoryPoint, 
 fn examined(points: &[TrajectoryPoint], s: Real) -> usize {
     let mut arc = Real::ZERO;
     let count = prefix(steps(points).map(|(a, b)| {
+        // DIST-03
         arc = arc + distance([a.x, a.y], [b.x, b.y]);
         Some(arc.possibly_at_most(s))
     }));
@@ -80,6 +81,7 @@ fn plainly_examined(points: &[TrajectoryPoint], s: [f64; 2]) -> Option<usize> {
     let mut arc = 0.0;
     prefix(steps(points).map(|(a, b)| {
         let (dx, dy) = (b.x - a.x, b.y - a.y);
+        // DIST-03
         arc += libm::sqrt(dx * dx + dy * dy);
         plainly_within(arc, s)
     }))

@@ -63,6 +63,7 @@ fn mean_cost(
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
     let detected = detections.items.len();
+    // S1-04; k = 0 passes: I-02
     let k = gated.min(detected);
     if k == 0 {
         return None;

@@ -22,6 +22,7 @@ pub(crate) fn trajectory_to_map(
             return None;
         }
         all_inside = false;
+        // S2-03
         if route.certainly_near(q, limit) {
             return None;
         }

@@ -12,6 +12,7 @@ pub(crate) fn trajectory_with_tracks(
     trajectory: &Trajectory<'_>,
     tracks: &TrackList<'_>,
 ) -> Option<Witness> {
+    // S3-02
     let points = points_examined(cycle, trajectory.points, Horizon::Cav);
     let motion = CavMotion::new(cycle, points, tracks.stamp_ns);
     let found = motion.first_collision(tracks.items.iter().map(MovingRectangle::track));

@@ -16,6 +16,7 @@ pub(crate) fn trajectory_with_detections(
     lead: Option<&Lead>,
 ) -> Option<Witness> {
     let follow = |lead: &Lead| s_follow(&cycle.parameters, cycle.ego.speed, lead.speed);
+    // S4-02
     gap_failure(lead, follow).or_else(|| collision(cycle, trajectory, detections, lead))
 }
 
@@ -36,6 +37,7 @@ fn collision(
     detections: &DetectionList<'_>,
     lead: Option<&Lead>,
 ) -> Option<Witness> {
+    // S4-02
     let points = points_examined(cycle, trajectory.points, Horizon::Valid(lead));
     let motion = CavMotion::new(cycle, points, detections.stamp_ns);
     let found = motion.first_collision(detections.items.iter().map(MovingRectangle::detection));

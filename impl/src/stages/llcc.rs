@@ -83,11 +83,13 @@ impl<'c, 'a> CavMotion<'c, 'a> {
     /// farther apart err by less than 2^-47 of that, and neither rectangle reaches beyond 150 m.
     fn collision(&self, at: &TrajectoryPoint, object: &MovingRectangle) -> Option<[f64; 2]> {
         let (ego, theta_obj) = (&self.cycle.ego, self.cycle.parameters.theta_obj);
+        // S3-01: below 0 at a point that is earlier than the list
         let seconds = seconds(elapsed_ns(self.stamp_ns, at.t_ns));
         let cav = MovingRectangle::cav(ego, [at.cos, at.sin]);
         let between = minus(object.seen_from([at.x, at.y]).after(seconds), cav.centre);
         let ([x, y], limit) = (between, theta_obj + SLACK);
         let squared = x * x + y * y;
+        // LLCC-01, LLCC-02; what touches is not apart: I-03
         if squared > limit * limit || cav.is_apart(object, between, SLACK) {
             return None;
         }

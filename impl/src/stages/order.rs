@@ -5,7 +5,8 @@ use crate::numbers::time::elapsed_ns;
 use crate::report::{Input, Outcome, Reason, Stage};
 use crate::services::configuration::Configuration;
 
-/// Which inputs of a cycle are there. Source: `spec/3-stages.md#schedule`.
+/// Which inputs of a cycle are there; a list without items is (I-11). Source:
+/// `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools, reason = "five independent facts, each asked for by name")]
 pub struct Given {
@@ -131,7 +132,8 @@ pub(crate) fn in_order(
 }
 
 impl Past {
-    /// Why a stage does not run, if it does not.
+    /// Why a stage does not run, if it does not: after a failure none does (I-04), and one that lacks
+    /// an input says so and does not fail (I-05).
     fn idle(
         self,
         others_replace_v: bool,
@@ -155,7 +157,7 @@ impl Past {
         }
     }
 
-    /// Whether another stage made a conditional one unnecessary.
+    /// Whether another stage made a conditional one unnecessary: by a run without a failure (I-06).
     const fn replaces(self, others_replace_v: bool, stage: Stage) -> bool {
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,

@@ -19,6 +19,7 @@ pub(crate) fn trajectory_with_grid_map(
     trajectory: &Trajectory<'_>,
     grid: &Grid<'_>,
 ) -> Option<Witness> {
+    // S5-04
     let points = points_examined(cycle, trajectory.points, Horizon::Braking);
     let (search, dilated) = (DiskSearch::new(cycle, grid), DilatedCells::new(grid));
     search.first(
@@ -36,6 +37,7 @@ pub(crate) struct DilatedCells<'a> {
 }
 
 impl<'a> DilatedCells<'a> {
+    /// What is unknown is not among them (S5-06, I-07).
     pub(crate) const fn new(grid: &Grid<'a>) -> Self {
         let &Grid { occupied: bits, width, height, .. } = grid;
         Self { occupied: Bitmap { bits, width, height } }

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use toml::{Table, Value};
 
 use super::comments::{mentions, names};
+use super::ids::{prefix, rule};
 use super::lines::{Place, item, lines};
 use super::rows::{Cell, Link};
 use super::symbols::has_word;
@@ -54,7 +55,8 @@ fn is_one_of(claim: &Claim, ids: &[&str]) -> bool {
     ids.iter().any(|id| id.rsplit("::").next() == Some(claim.link.name.as_str()))
 }
 
-/// What the function of a change is about: what its comments name, else what its file does.
+/// What the function of a change is about: what its comments name, else what its file does. A requirement that
+/// the implementation cites is kept at some of its lines, and the change may be at others.
 fn place_of(tree: &Tree, place: &Table) -> (BTreeSet<String>, String) {
     let text = |key: &str| place.get(key).and_then(Value::as_str).unwrap_or_default();
     let mut path = text("item").split("::");
@@ -71,12 +73,18 @@ fn place_of(tree: &Tree, place: &Table) -> (BTreeSet<String>, String) {
         let owner = path.len() < 2 || source.contains(path[0]) || file.contains(path[0]);
         if here && owner {
             let all = mentions(source);
-            let own = all.iter().filter(|it| it.at == Place::Item(function));
+            let counts = |name: &str| folder == "model/src/" || is_whole(name);
+            let own = all.iter().filter(|it| it.at == Place::Item(function) && counts(&it.name));
             let head = all.iter().filter(|it| it.at == Place::Head);
             about.extend(own.chain(head).map(|it| it.name.clone()));
         }
     }
     (about, format!(" {function} {} {}", text("from"), text("to")))
+}
+
+/// A heading, or a rule as a whole.
+fn is_whole(name: &str) -> bool {
+    name.starts_with("spec/") || (prefix(name) == "H" && rule(name) == name)
 }
 
 /// A claim of a file; the head of the file is about each of its claims. "Stage i" is its heading.

@@ -1,4 +1,4 @@
-//! What cites a requirement: tests, vectors and proofs.
+//! What cites a requirement: tests, vectors and proofs, and the code that implements it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,34 +6,43 @@ use super::ids::{Requirement, ids_in, prefix, rule};
 use super::lines::{Place, lines};
 use super::tree::Tree;
 
-/// Of each id what cites it: the name of a function or type of Rust, or a file.
+/// Of each id what cites it: the name of a function or type of Rust, or a file; of code both.
 pub type Citations = BTreeMap<String, BTreeSet<String>>;
 
 /// The tests that read ids themselves.
 const BOOKS: [&str; 3] = ["props/tests/chain/", "props/tests/requirements.rs", "props/tests/tree/"];
 
-/// All that tests, vectors and proofs cite.
+/// The sources of what a vehicle runs.
+const CODE: [&str; 2] = ["impl/src/", "capi/src/"];
+
+/// Whether it is code that cites, and no test of it.
+pub fn is_code(by: &str) -> bool {
+    CODE.iter().any(|folder| by.starts_with(folder)) && !by.ends_with("/tests.rs")
+}
+
+/// All that tests, vectors, proofs and code cite.
 pub fn citations(tree: &Tree) -> Citations {
     let mut found = Citations::new();
     for (path, text) in tree.ending("") {
         for (id, by) in of_file(path, text) {
-            found.entry(id.to_owned()).or_default().insert(by.to_owned());
+            found.entry(id.to_owned()).or_default().insert(by);
         }
     }
     found
 }
 
-fn of_file<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, &'a str)> {
+fn of_file<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, String)> {
     let is_test = text.contains("#[test]") || text.contains("proptest!");
     match (path.split('/').next(), kind(path)) {
         _ if BOOKS.iter().any(|it| path.starts_with(it)) => Vec::new(),
         (Some("vectors"), "jsonl") => {
-            text.lines().flat_map(of_vector).map(|id| (id, path)).collect()
+            text.lines().flat_map(of_vector).map(|id| (id, path.to_owned())).collect()
         }
         _ if path == "proofs/expected.toml" => {
-            ids_in(text).into_iter().map(|id| (id, path)).collect()
+            ids_in(text).into_iter().map(|id| (id, path.to_owned())).collect()
         }
         (Some("proofs"), "rs") => of_rust(path, text),
+        (_, "rs") if is_code(path) => of_code(path, text),
         (_, "rs") if is_test => of_rust(path, text),
         _ => Vec::new(),
     }
@@ -54,12 +63,27 @@ fn of_vector(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Ids of a file of Rust, each with the item whose comment or body cites it, else with the file.
-fn of_rust<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, &'a str)> {
+fn of_rust<'a>(path: &str, text: &'a str) -> Vec<(&'a str, String)> {
     let cited = lines(text).into_iter().flat_map(|line| {
         let by = if let Place::Item(name) = line.at { name } else { path };
-        ids_in(line.code).into_iter().chain(ids_in(line.comment)).map(move |id| (id, by))
+        let ids = ids_in(line.code).into_iter().chain(ids_in(line.comment));
+        ids.map(move |id| (id, by.to_owned()))
     });
     cited.collect()
+}
+
+/// Ids of a source, each with the item whose comment cites it. A comment names rules as a whole for many a
+/// reason: that is no citation. The tests at its end cite as others do.
+fn of_code<'a>(path: &str, text: &'a str) -> Vec<(&'a str, String)> {
+    let end = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    let cited = lines(&text[..end]).into_iter().flat_map(|line| {
+        let item =
+            if let Place::Item(name) = line.at { format!("::{name}") } else { String::new() };
+        let ids =
+            ids_in(line.comment).into_iter().filter(|id| prefix(id) != "H" || rule(id) != *id);
+        ids.map(move |id| (id, format!("{path}{item}")))
+    });
+    cited.chain(of_rust(&format!("tests of {path}"), &text[end..])).collect()
 }
 
 /// Citations of no requirement. Prose may name what is retired.

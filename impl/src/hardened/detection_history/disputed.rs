@@ -1,4 +1,4 @@
-//! Which explained detections are disputed (SEEN-17).
+//! Which explained detections are disputed.
 //!
 //! In plain doubles, with `CLOSE` on the side that disputes more. The own origin is found again: what
 //! is as near to the past as the nearest item, but for `CLOSE`, is at the same place, or stage i has
@@ -37,7 +37,8 @@ impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
         Self { detections, index, tracks, explained, last: None }
     }
 
-    /// Whether the detection of a confirmed track is disputed. The lists are listed by squares.
+    /// Whether the detection of a confirmed track is disputed (SEEN-17). The lists are listed by
+    /// squares.
     pub(crate) fn is_disputed(
         &mut self,
         track: usize,

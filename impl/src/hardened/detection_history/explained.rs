@@ -1,10 +1,10 @@
-//! Which current detections confirmed tracks explain (SEEN-13).
+//! Which current detections confirmed tracks explain.
 
 use crate::hardened::detection_history::DetectionHistory;
 use crate::input::cycle::TrackList;
 use crate::input::scratch::{Column, Row, Scratch};
 
-/// The current detections that confirmed tracks of a current list explain.
+/// The current detections that confirmed tracks of a current list explain (SEEN-13).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Explained {
     /// How many they are.

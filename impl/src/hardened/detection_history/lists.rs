@@ -1,4 +1,4 @@
-//! The usable lists, as H-14 looks into them (SEEN-01, SEEN-02).
+//! The usable lists, as H-14 looks into them.
 
 use crate::cycle::steps::SUPPORT;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
@@ -22,7 +22,7 @@ pub(crate) struct Past<'c> {
 }
 
 impl Past<'_> {
-    /// From the position of a track to its past, m.
+    /// From the position of a track to its past (SEEN-05), m.
     pub(crate) fn moved(&self, track: &Track) -> (f64, f64) {
         (track.vx * self.since, track.vy * self.since)
     }
@@ -99,7 +99,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.squares.get(list).copied().flatten()
     }
 
-    /// The list of the confirmed track with this row.
+    /// The list of the confirmed track with this row (SEEN-12).
     pub(crate) fn past_of(&self, row: &Row) -> Option<Past<'c>> {
         let origins = row.origins();
         let is_held = |past: &&Past<'_>| origins & [1, 2, 4, 8].get(past.list).unwrap_or(&0) != 0;
@@ -112,7 +112,8 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     }
 
     /// Whether a detection may come from an item of a list, except for the distance: whether an item of
-    /// another list is where the object was then, when there are other lists. All are listed.
+    /// another list is where the object was then (SEEN-16), when there are other lists (SEEN-15).
+    /// All are listed.
     pub(crate) fn is_supported(
         &self,
         now: &Detection,

@@ -1,5 +1,5 @@
 //! The items of a list that are one track's own: nearest to where it was at the time of the list,
-//! and of no other track (SEEN-07).
+//! and of no other track.
 
 use crate::hardened::detection_history::squares::{CLOSE, Listed, MARGIN, Squares};
 use crate::input::cycle::{Detection, Track};
@@ -33,8 +33,8 @@ struct Nearest {
 impl Nearest {
     const NONE: Self = Self { item: 0, squared: f64::MAX, next: f64::MAX };
 
-    /// Another item, at this distance. At the same place as the nearest it is as far; the first of
-    /// several is it then.
+    /// Another item, at this distance (SEEN-06, SEEN-09). At the same place as the nearest it is as
+    /// far; the first of several is it then.
     #[inline]
     fn compare(&mut self, item: usize, squared: f64, items: &[Detection]) {
         if squared < self.squared {
@@ -74,8 +74,8 @@ impl<'a> Search<'a> {
         Self { squares, reach, near, far, wide: square(reach + 1.0), since: seconds(since_ns) }
     }
 
-    /// Writes the mark into the rows of the tracks whose item is that of no other track, and which it is where
-    /// it is a current detection; fails when it is too close to call.
+    /// Writes the mark into the rows of the tracks whose item is that of no other track (SEEN-07),
+    /// and which it is where it is a current detection; fails when it is too close to call.
     pub(super) fn mark_own(
         &self,
         (mark, is_detection): (u16, bool),

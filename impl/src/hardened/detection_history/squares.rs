@@ -1,5 +1,5 @@
 //! The items of a list by the squares of a uniform grid, so that what is near a place is found
-//! without a look at every item (SEEN-06).
+//! without a look at every item.
 //!
 //! Plain doubles: coordinates are below 2^25 m, so that a place and its square err by less than
 //! 1e-7 m; whoever searches makes what is searched larger by `MARGIN`.

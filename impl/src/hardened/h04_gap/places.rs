@@ -48,6 +48,7 @@ impl DiskSearch<'_, '_> {
         if self.lines_are_free(nodes, &is_free) {
             return None;
         }
+        // H-04.1; the disks stand at the pose itself: H-14.27
         Path::new(nodes).pieces().find_map(|piece| {
             let [cos, sin] = piece.heading();
             let is_free = |run: [i64; 2]| {

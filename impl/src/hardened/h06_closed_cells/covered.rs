@@ -15,8 +15,8 @@ pub(super) struct Covered<'c, 'a> {
 }
 
 impl Covered<'_, '_> {
-    /// Whether a cell certainly shares a point with some detection, grown. `latest`: which one covered a
-    /// cell last; it often covers the next one, too.
+    /// Whether a cell certainly shares a point with some detection, grown (H-06.3). `latest`: which
+    /// one covered a cell last; it often covers the next one, too.
     pub(super) fn has(&self, i: i64, k: i64, latest: &mut usize) -> bool {
         let (plain, square) = (plain_square(self.grid, i, k), || square(self.grid, i, k));
         let covers =

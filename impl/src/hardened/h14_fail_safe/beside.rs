@@ -49,7 +49,7 @@ pub(super) struct Passing {
 pub(super) struct Beside<'c, 'a> {
     path: Path<'c, 'a>,
     route: IndexedRoute<'c, 'a>,
-    /// How far the CAV is aside of the first point (a of the text), m.
+    /// How far the CAV is aside of the first point (the widening of the text), m.
     aside: Real,
     lane: Option<Lane>,
     straight: Option<bool>,
@@ -62,7 +62,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         Self { path: *path, route, aside, lane: None, straight: None, sides: None }
     }
 
-    /// Whether the object certainly does, if it does not lie across the way.
+    /// Whether the object certainly does (H-14.36), if it does not lie across the way.
     pub(super) fn keeps(&mut self, object: &Passing, work: &Work) -> bool {
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
         if lane.is_open == Some(false) || !object.comes_towards && !self.is_straight() {
@@ -113,6 +113,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         let [x, y] = [centre.x.value(), centre.y.value()];
         let near = self.route.segments([x, y], away.value()).count();
         work.add(SEGMENT.saturating_mul(u64::try_from(near).unwrap_or(u64::MAX)));
+        // H-14.37
         let is_near = away.certainly_at_most(Real::new(FARTHEST));
         if !is_near || !Real::ZERO.certainly_below(away) || !self.route.certainly_has_beside(centre)
         {
@@ -123,6 +124,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         self.route.each_nearest(centre, nearest, |segment| {
             for q in from_segment(centre, segment.from, segment.to).into_iter().flatten() {
                 let drift = object.velocity.dot(q).abs();
+                // H-14.43
                 let keeps_lane = object.is_behind && drift.certainly_at_most(most);
                 let drifts = if keeps_lane { Real::ZERO } else { drift * object.until };
                 let reach = direction.dot(q).abs() * length + direction.cross(q).abs() * width;
@@ -135,6 +137,7 @@ impl<'c, 'a> Beside<'c, 'a> {
     /// Whether there certainly is room at a place.
     fn has_room(&self, place: &Place, lane: &Lane, (away, needed): (Real, Real)) -> bool {
         self.reach(place, lane).is_some_and(|[from, reach]| {
+            // H-14.42
             needed.certainly_below(((away - from).abs() - reach) * away)
         })
     }
@@ -144,6 +147,7 @@ impl<'c, 'a> Beside<'c, 'a> {
     fn reach(&self, place: &Place, lane: &Lane) -> Option<[Real; 2]> {
         let ego = &self.path.nodes.cycle.ego;
         let (h, h_k) = (vector([ego.cos, ego.sin]), vector(place.pose.heading));
+        // H-14.41
         let most = Real::new(BEND) + place.way.over(Real::new(RADIUS));
         let centre = footprint(ego, &place.pose).centre;
         if !h.cross(h_k).abs().certainly_at_most(most) || !self.route.certainly_has_beside(centre) {
@@ -154,6 +158,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         self.route.each_nearest(centre, nearest, |segment| {
             let g = Vector::between(segment.from, segment.to);
             let [length, width] = [ego.length, ego.width].map(|size| Real::new(0.5 * size));
+            // H-14.42
             let across = h_k.dot(g).abs() * width + h_k.cross(g).abs() * length;
             extent = extent.max(across.over(g.norm()));
         });
@@ -247,8 +252,8 @@ impl Lane {
     }
 }
 
-/// Whether a segment of the route may turn more than a bend of that radius does, m; none that is farther
-/// away can. Plain doubles tell most.
+/// Whether a segment of the route may turn more than a bend of that radius does (H-14.40), m; none
+/// that is farther away can. Plain doubles tell most.
 fn turns(route: IndexedRoute<'_, '_>, ego: &Ego, radius: f64) -> bool {
     let (p, h) = (Vector::new(ego.x, ego.y), vector([ego.cos, ego.sin]));
     route.segments([ego.x, ego.y], radius).any(|Segment { from, to, index }| {

@@ -48,12 +48,13 @@ impl Clock {
         (age + self.until_yielded(speed)) * (1.0 + 1e-9) + 1e-9
     }
 
-    /// H(w), as rounded as plain doubles are.
+    /// H(w) (H-14.10), as rounded as plain doubles are.
     pub(super) fn until_yielded(&self, speed: f64) -> f64 {
         larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
-    /// After what time an object that goes on is where it is after so many seconds when it brakes.
+    /// After what time an object that goes on is where it is after so many seconds when it brakes:
+    /// `r_b` of H-14.24 is the way in that time.
     pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
         let seconds = larger(seconds, 0.0);
         let lost = self.a_b * seconds;

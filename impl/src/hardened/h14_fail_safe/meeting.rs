@@ -51,7 +51,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
         let (cycle, aside) = (nodes.cycle, aside(&nodes.cycle.ego, trajectory.first()));
-        // As wide as at the places, or by less than 1e-13 of it more.
+        // H-14.26: as wide as at the places, or by less than 1e-13 of it more.
         let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
         let covers = Covers::new(&ego, nodes, &clock.times);
@@ -127,6 +127,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
                 .then(|| places.met(place))
         };
         let met = places.first(&object, boxes, meets)?;
+        // H-14.28
         (met.number < before && !places.is_exempt((&object, &exact), boxes)).then_some(met)
     }
 }
@@ -212,16 +213,20 @@ impl<'c, 'a> Places<'c, 'a> {
         comes_across: impl FnOnce() -> bool,
     ) -> bool {
         let times = &self.path.times;
+        // H-14.45; H-14.11
         let (spot, start) = (Spot::new(&self.ego, place), times.plainly_first(place.before));
         let meets = |end: f64| !spot.is_missed(object, [start, end], clock);
+        // H-14.12
         if let Some(after) = place.after.filter(|after| after.certainly_below(times.s_b)) {
             return meets(times.plainly_last(after));
         }
+        // H-14.13
         meets(clock.until_yielded(object.speed))
             && (!comes_across() || meets(times.until_stop.value()))
     }
 
     fn met(&self, place: &Place) -> Met {
+        // H-14.50
         let ways = [place.way, self.path.times.s_stop].map(Real::value);
         Met { number: place.number, point: place.point(self.points), ways }
     }
@@ -232,10 +237,13 @@ impl<'c, 'a> Places<'c, 'a> {
         let (h, w) = (vector([ego.cos, ego.sin]), exact.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
         let from = exact.now.centre - vector([ego.x, ego.y]);
+        // H-14.34
         let most = Real::new(BEND) + from.norm().over(Real::new(RADIUS));
+        // H-14.37
         if !exact.moves || !across.certainly_at_most(exact.speed * most) {
             return false;
         }
+        // H-14.35; H-14.36
         exact.is_behind && exact.comes_across && across.certainly_at_most(along) || {
             let Exact { now, velocity, speed, is_behind, .. } = *exact;
             let (until, comes_towards) =
@@ -246,7 +254,7 @@ impl<'c, 'a> Places<'c, 'a> {
         }
     }
 
-    /// Whether an object that stands may share a point with the CAV at some place.
+    /// Whether an object that stands may share a point with the CAV at some place (H-14.38).
     fn may_lie_across(&self, object: &Object, boxes: Boxes<'_>) -> bool {
         let touches = |place: &Place| {
             (!Spot::new(&self.ego, place).is_missed(object, [0.0; 2], boxes.1)).then_some(())
@@ -267,8 +275,8 @@ impl<'c, 'a> Places<'c, 'a> {
 /// By how much the front of the inner rectangle is moved in, and its other sides at most, m.
 const INNER: f64 = 0.3;
 
-/// By how much half the CAV is wider, m: as far as it is aside of the trajectory's first point. One that
-/// begins beside it does not say where it joins.
+/// By how much half the CAV is wider (H-14.26), m: as far as it is aside of the trajectory's first
+/// point. One that begins beside it does not say where it joins.
 fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
     start.map_or(Real::ZERO, |start| {
         let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
@@ -310,7 +318,8 @@ impl Exact {
     }
 }
 
-/// Whether the object certainly goes the CAV's way, and all of it is behind the CAV's rear.
+/// Whether the object certainly goes the CAV's way, and all of it is behind the CAV's rear
+/// (H-14.29).
 fn is_behind(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
     let (h, cav) = (vector([ego.cos, ego.sin]), footprint(ego, &Pose::of_cav(ego)));
     let Rectangle { centre, direction, length, width } = *now;
@@ -321,7 +330,7 @@ fn is_behind(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
         && front.certainly_below(Real::new(-0.5 * ego.length))
 }
 
-/// Whether the object certainly shares a point with the inner rectangle, now or later.
+/// Whether the object certainly shares a point with the inner rectangle, now or later (H-14.33).
 ///
 /// The one here lies inside that of the text, and reaches less than 1e-9 m less far: each side is moved in
 /// by 5e-10 m more, and no side is rounded by 1e-12 m. What b errs by is below 1e-15 m: `s_b(v)` is rounded
@@ -330,10 +339,13 @@ fn is_behind(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
 /// back by less than 1e-15 m, and the sum of the centre and that bounds its own error.
 fn comes_across(cycle: &Cycle<'_>, now: &Rectangle, velocity: Vector, is_behind: bool) -> bool {
     let ego = &cycle.ego;
+    // H-14.31
     let b = if is_behind { 0.0 } else { smaller(INNER, s_b(&cycle.parameters, ego.speed)) };
+    // H-14.30
     let (length, width) = (ego.length - (INNER + b) - 1e-9, ego.width - (b + b) - 1e-9);
     let cav = footprint(ego, &Pose::of_cav(ego));
     let back = cav.direction.times(Real::new(0.5 * (b - INNER)));
     let inner = Rectangle { centre: cav.centre + back, length, width, ..cav };
+    // H-14.32
     length > 0.0 && width > 0.0 && certainly_met(&inner, now, velocity)
 }

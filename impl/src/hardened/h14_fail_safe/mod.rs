@@ -46,6 +46,7 @@ impl FailSafe<'_, '_> {
         let detections = history.detections;
         let objects = tracks.map_or(0, |list| list.items.len());
         let detected = detections.map_or(0, |list| list.items.len());
+        // H-14.16
         if objects.max(detected) == 0 {
             return None;
         }

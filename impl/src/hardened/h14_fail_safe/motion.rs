@@ -9,11 +9,11 @@ use crate::stages::llcc::vector;
 /// An object that moves on as it did.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
-    /// At the time of its list.
+    /// At the time of its list (H-14.23).
     pub(super) now: MovingRectangle,
     /// Where it was so many ns before, unless its velocity was given.
     pub(super) from: Option<([f64; 2], i64)>,
-    /// Of its list.
+    /// Of its list (H-14.23).
     pub(super) age_ns: i64,
     /// The same in s.
     pub(super) age: f64,

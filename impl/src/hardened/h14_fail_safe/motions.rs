@@ -30,8 +30,8 @@ pub(super) struct Motions<'m, 'c, 'a> {
     pub(super) first: Option<Found>,
 }
 
-/// One that meets the CAV; the first has the least number of its place, then kind of motion, order in
-/// its list, and item.
+/// One that meets the CAV; the first has the least number of its place (H-14.48), then kind of
+/// motion, order in its list, and item.
 #[derive(Clone, Copy)]
 pub(super) struct Found {
     number: i64,
@@ -39,7 +39,7 @@ pub(super) struct Found {
     pub(super) witness: Witness,
 }
 
-/// The kinds of motions in their order.
+/// The kinds of motions in their order (H-14.22).
 const TRACK: usize = 0;
 const CONFIRMED: usize = 1;
 const ANYWHERE: usize = 2;
@@ -56,6 +56,7 @@ struct Pair {
 }
 
 impl Motions<'_, '_, '_> {
+    /// Each track with its own velocity (H-14.17).
     pub(super) fn tracks(&mut self, list: &TrackList<'_>, age_ns: i64) {
         for (index, track) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::track(track), age_ns);
@@ -84,6 +85,7 @@ impl Motions<'_, '_, '_> {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
             let by = self.explained.by(detection, scratch.rows, scratch.columns);
             self.anywhere((detection, now), &motion, by, scratch);
+            // H-14.21
             if by.is_none() {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
@@ -100,6 +102,7 @@ impl Motions<'_, '_, '_> {
         witness: impl FnOnce(Witness) -> Witness,
         counts: impl FnOnce(&mut Self) -> bool,
     ) {
+        // H-14.48
         let end = self
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
@@ -116,6 +119,7 @@ impl Motions<'_, '_, '_> {
     }
 
     fn keep_pair(&mut self, motion: &Motion, pair: &Pair, counts: impl FnOnce(&mut Self) -> bool) {
+        // H-14.49
         let &Pair { order: [kind, order], detection, item, dt_ns } = pair;
         let witness = |it: Witness| Witness {
             detection: Some(detection),
@@ -126,7 +130,7 @@ impl Motions<'_, '_, '_> {
         self.keep(motion, [kind, order, item], witness, counts);
     }
 
-    /// The detection of a confirmed track, from every item that may have been the track.
+    /// The detection of a confirmed track, from every item that may have been the track (H-14.18).
     fn confirmed(
         &mut self,
         (order, track): (usize, &Track),
@@ -155,8 +159,9 @@ impl Motions<'_, '_, '_> {
         });
     }
 
-    /// A detection from every item of the reference list where it may have stood; one that is unexplained,
-    /// or disputed, also from every item that some other list supports. `track`: which explains it.
+    /// A detection from every item of the reference list (H-14.19) where it may have stood; one
+    /// that is unexplained, or disputed, also from every item that some other list supports
+    /// (H-14.20), whatever has the item (SEEN-14). `track`: which explains it.
     fn anywhere(
         &mut self,
         (detection, now): (usize, &Detection),
@@ -167,6 +172,7 @@ impl Motions<'_, '_, '_> {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
         let (stood, rate) = (self.lists.stands_within(), 1.0 / list.age);
+        // SEEN-15
         let farthest = larger(self.lists.v_object() * list.age + CLOSE, stood);
         let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
         if is_empty(area) {

@@ -1,5 +1,5 @@
 //! Where the reference path is nearest to a place, and whether it is beside it
-//! (`spec/hardened/H-14.md#requirements-failure`).
+//! (`spec/hardened/H-14.md#requirements-not-examined`).
 
 use crate::input::cycle::CrossSection;
 use crate::numbers::plane::{Vector, distance_to_segment};
@@ -30,7 +30,7 @@ impl<'a> IndexedRoute<'_, 'a> {
         found
     }
 
-    /// Calls `ask` for each segment that may be as near as the nearest one.
+    /// Calls `ask` for each segment that may be as near as the nearest one (H-14.44).
     pub(crate) fn each_nearest(
         &self,
         place: Vector,
@@ -65,7 +65,7 @@ impl<'a> IndexedRoute<'_, 'a> {
         answer
     }
 
-    /// The same, where it certainly does.
+    /// The same, where it certainly does (H-14.39).
     pub(crate) fn certainly_has_beside(&self, place: Vector) -> bool {
         self.ends().all(|(end, next)| {
             let along = Vector::between([end.x, end.y], [next.x, next.y]);
@@ -73,7 +73,7 @@ impl<'a> IndexedRoute<'_, 'a> {
         })
     }
 
-    /// The ends of an open route, each with the reference point next to it.
+    /// The ends of an open route, each with the reference point next to it (H-14.39).
     fn ends(&self) -> impl Iterator<Item = (&'a CrossSection, &'a CrossSection)> {
         let (cross_sections, last) = (self.route.cross_sections, self.pairs());
         let ends = [[0, 1], [last, last.saturating_sub(1)]];

@@ -33,6 +33,7 @@ pub(crate) struct Nodes<'c, 'a> {
 
 impl<'c, 'a> Nodes<'c, 'a> {
     pub(crate) fn new(cycle: &'c Cycle<'a>, points: &'a [TrajectoryPoint]) -> Self {
+        // H-14.1
         let ahead = points.iter().position(|point| is_ahead(&cycle.ego, point));
         let points = ahead.and_then(|first| points.get(first..)).unwrap_or(&[]);
         Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
@@ -84,7 +85,7 @@ impl<'c, 'a> Path<'c, 'a> {
         Self { nodes, times: Times::new(nodes.cycle) }
     }
 
-    /// The pieces with a place, in order.
+    /// The pieces with a place, in order (H-14.6).
     pub(crate) fn pieces(&self) -> Pieces<'a> {
         let Nodes { cycle, points, d } = self.nodes;
         let &Ego { x, y, cos, sin, .. } = &cycle.ego;
@@ -104,8 +105,8 @@ pub(crate) struct Line {
     pub(crate) advance: f64,
 }
 
-/// Whether the point is more than 1/8 m ahead of the CAV; exact. Plain doubles err by less than 2^-50 of
-/// the sizes.
+/// Whether the point is more than 1/8 m ahead of the CAV (H-14.1); exact. Plain doubles err by less
+/// than 2^-50 of the sizes.
 fn is_ahead(ego: &Ego, point: &TrajectoryPoint) -> bool {
     let (x, y) = (point.x - ego.x, point.y - ego.y);
     let beyond = x * ego.cos + y * ego.sin - AHEAD;
@@ -183,7 +184,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// As what point of the trajectory a witness counts it.
+    /// As what point of the trajectory a witness counts it (H-14.9).
     pub(crate) fn point(&self, points: usize) -> usize {
         points.saturating_add(usize::try_from(self.number).unwrap_or(usize::MAX))
     }
@@ -202,9 +203,11 @@ impl Iterator for Pieces<'_> {
         let (u, n, advance) = match to {
             Some((to, _)) => {
                 let u = Vector::between(at, [to.x, to.y]);
+                // H-14.2, H-14.3
                 let n = steps(at[0], to.x, d).max(steps(at[1], to.y, d)).max(1);
                 (u, n, u.dot(vector(heading)).max(Real::ZERO))
             }
+            // H-14.5
             None => (vector(heading).times(Real::new(d)), 1, Real::new(d)),
         };
         let next = way + advance;
@@ -212,6 +215,7 @@ impl Iterator for Pieces<'_> {
         let mut piece =
             Piece { node, u, advance, n, first: self.first, places: n, end: None, s_stop };
         if ends {
+            // H-14.7
             let share = (s_stop - way).over(advance);
             let most = if to.is_some() { n } else { i64::MAX };
             piece.places = piece.first_beyond(share).min(most);
@@ -228,8 +232,8 @@ impl Iterator for Pieces<'_> {
     }
 }
 
-/// The least n with abs(to - from) <= n d; exact. A quotient in plain doubles is below 2^33, so that it
-/// errs by less than 1e-5.
+/// The least n with abs(to - from) <= n d (H-14.3); exact. A quotient in plain doubles is below
+/// 2^33, so that it errs by less than 1e-5.
 #[allow(clippy::cast_possible_truncation, reason = "below 2^33")]
 fn steps(from: f64, to: f64, d: f64) -> i64 {
     let quotient = (to - from).abs() / d;
@@ -282,7 +286,8 @@ impl Piece {
         self.node.way + self.advance * share(k, self.n)
     }
 
-    /// Place k from the node on.
+    /// Place k from the node on (H-14.4), the last one of all with the heading of its piece
+    /// (H-14.8).
     pub(crate) fn place(&self, k: i64) -> Place {
         let (after, is_last) = (k.saturating_add(1), self.end.is_some() && k >= self.places);
         let ends_after = self.end.is_some() && after >= self.places;

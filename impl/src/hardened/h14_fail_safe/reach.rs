@@ -39,6 +39,7 @@ fn failure_at(path: &Path<'_, '_>, points: usize, place: &Place) -> Option<Witne
     let away = place.pose.at - Vector::new(ego.x, ego.y);
     let h = vector([ego.cos, ego.sin]);
     let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
+    // H-14.15
     if place.number == 0 || path.times.s_b.certainly_at_most(f) {
         return None;
     }

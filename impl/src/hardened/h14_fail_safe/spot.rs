@@ -42,6 +42,7 @@ impl Spot {
     /// the strict model is found not to.
     pub(super) fn is_missed(&self, object: &Object, [start, end]: [f64; 2], clock: &Clock) -> bool {
         let &Object { at, speed, age } = object;
+        // H-14.25
         let (from, until) = (clock.braked(speed, age + start), age + end);
         let moved = at.velocity.map(|rate| rate * (until - from));
         let between = minus(at.after(from), self.cav.centre);

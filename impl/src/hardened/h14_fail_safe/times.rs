@@ -1,5 +1,5 @@
-//! When the CAV is where (`spec/hardened/H-14.md#requirements-windows`), in numbers with error bounds or
-//! in plain doubles.
+//! When the CAV is where (H-14.10, `spec/hardened/H-14.md#requirements-windows`), in numbers with error
+//! bounds or in plain doubles.
 
 use crate::input::cycle::Cycle;
 use crate::numbers::range::larger;

@@ -30,7 +30,7 @@ impl Work {
         self.taken.get() > self.most
     }
 
-    /// Why the stage fails, if it was too much.
+    /// Why the stage fails, if it was too much (H-14.52).
     pub(crate) fn failure(&self) -> Option<Witness> {
         let real = |steps: u64| Real::integer(i64::try_from(steps).unwrap_or(i64::MAX)).value();
         // How much more depends on the order of items in an index.

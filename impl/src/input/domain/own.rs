@@ -23,6 +23,7 @@ pub(super) fn check_ego(ego: &Ego) -> Check {
     AT.f64("ego.cos", ego.cos, ANY)?;
     AT.f64("ego.sin", ego.sin, ANY)?;
     AT.direction("ego.cos", ego.cos, ego.sin)?;
+    // DIST-02
     AT.f64("ego.speed", ego.speed, SPEED)?;
     AT.f64("ego.length", ego.length, SIZE)?;
     AT.f64("ego.width", ego.width, SIZE)?;

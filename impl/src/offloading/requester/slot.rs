@@ -44,6 +44,7 @@ impl Slot {
         session: i64,
     ) -> Self {
         // CONF-02, CONF-03
+        // H-08.2
         let local_computes = profile.has(HardenedRule::H08);
         let arrivals = Arrivals::since_activation(now_ns);
         Self::Remote { station, session, arrivals, local_computes }

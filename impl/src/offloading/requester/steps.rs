@@ -199,6 +199,7 @@ impl Requester<'_> {
             {
                 let is_named = sessions.of(group) == Some(*session);
                 // CONF-03
+                // H-08.1
                 if is_named && *local_computes && arrivals.has_used() {
                     *local_computes = false;
                     *out.services.get_mut(group) = Some(Action::Deactivate(group));
@@ -208,6 +209,7 @@ impl Requester<'_> {
     }
 
     fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
+        // I-10
         for group in Group::ALL {
             // FALL-01, FALL-02
             self.leave(group, Farewell::Release, out);
@@ -229,7 +231,7 @@ impl Requester<'_> {
     }
 
     fn may_request(&self, group: Group, now_ns: i64) -> bool {
-        // REQ-03, FALL-05
+        // REQ-03, FALL-05, I-08
         self.area.contains(group)
             && self.hold_until_ns.is_none_or(|hold_until_ns| now_ns >= hold_until_ns)
     }
@@ -267,6 +269,7 @@ impl Requester<'_> {
             }
             (Some(_), Farewell::Silent) | (None, _) => {}
         }
+        // H-08.3
         if !left.local_computes() {
             *out.services.get_mut(group) = Some(Action::Activate(group));
         }

@@ -27,8 +27,9 @@ pub(crate) trait Costs {
     fn lists(&self, row: Self::Place) -> impl Iterator<Item = (i64, Range<usize>)>;
 }
 
-/// Assigns the first `count` rows one after the other. The result is in `Column::row`; returned is
-/// how many rows have got a column, which is as many as is possible at all.
+/// Assigns the first `count` rows one after the other, at the least cost (S1-05). The result is in
+/// `Column::row`; returned is how many rows have got a column, which is as many as is possible at
+/// all.
 pub(crate) fn assign(
     rows: &mut [Row],
     count: usize,

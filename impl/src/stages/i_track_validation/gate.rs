@@ -24,18 +24,19 @@ pub(crate) struct Gate {
 }
 
 impl Gate {
-    /// Without detections the radius is 0.
+    /// Without detections the radius is 0 (S1-02).
     pub(crate) const fn new(p: [f64; 2], places: &Places<'_>) -> Self {
         Self { p, farthest: 0.0, open: if places.ahead_ns == 0 { GIVEN } else { MOVED } }
     }
 
-    /// Widens the gate up to a detection.
+    /// Widens the gate up to a detection (S1-01).
     pub(crate) fn include(&mut self, detection: [f64; 2]) {
         let away = apart_squared(self.p, detection);
         self.farthest = if away > self.farthest { away } else { self.farthest };
     }
 
-    /// Whether a track here is gated; `None` when it is as far as the farthest detection, or almost.
+    /// Whether a track here is gated (S1-03); `None` when it is as far as the farthest detection,
+    /// or almost.
     pub(crate) fn admits(&self, track: [f64; 2]) -> Option<bool> {
         let away = apart_squared(self.p, track);
         let [relative, absolute] = self.open;
@@ -70,6 +71,7 @@ pub(crate) fn gated_tracks(
         let farther = |a, b| if compare_distances(p, b, a) == Ordering::Greater { b } else { a };
         // Whatever is certainly nearer than the farthest one is not the farthest.
         let far = || detected().filter(|&place| gate.admits(place).is_none());
+        // S1-01; without detections p itself: S1-02
         let farthest = *farthest.get_or_insert_with(|| far().fold(p, farther));
         let order = places.tracks.get(index).map(|track| {
             let (at, velocity) = ([track.x, track.y], [track.vx, track.vy]);
@@ -78,6 +80,7 @@ pub(crate) fn gated_tracks(
                 ahead_ns => compare_moved_distances(p, (at, velocity, ahead_ns), farthest),
             }
         });
+        // S1-03
         order.is_some_and(|order| order != Ordering::Greater)
     };
     let are_gated = places

@@ -25,6 +25,7 @@ pub(crate) fn mean_cost_failure(
     }
     let are_pairs = pairs.are_one_to_one(rows, columns, k);
     let (sum, k) = (pairs.sum(rows, columns), Real::new(count(k)));
+    // S1-06
     let passes = are_pairs && sum.certainly_below(k * Real::new(theta_tr));
     (!passes).then(|| witness(sum.over(k).value()))
 }
@@ -34,9 +35,11 @@ pub(crate) fn mean_cost_failure(
 /// which looks at all columns.
 pub(crate) fn over_work_limit(cycle: &Cycle<'_>, rows: usize, columns: usize) -> Option<Witness> {
     let (least, most) = (rows.min(columns), rows.max(columns));
+    // S1-07
     let work = least.saturating_mul(least).saturating_mul(most);
     let (work, limit) = (i64::try_from(work).unwrap_or(i64::MAX), cycle.parameters.work_limit);
     let compared = [work, limit].map(|steps| Real::integer(steps).value());
+    // S1-08
     (work > limit).then(|| Witness::of(Rule::WorkLimit, compared))
 }
 

@@ -89,7 +89,7 @@ impl PairSum {
         may_be_left && self.left <= limits.spare
     }
 
-    /// Whether the mean certainly is below the limit.
+    /// Whether the mean certainly is below the limit, or nothing was to be paired (S1-06, I-02).
     pub(crate) fn passes(&self, limits: &PairLimits, places: &Places<'_>) -> bool {
         let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
         let k = f64::from(self.paired);

@@ -68,6 +68,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
             return true;
         }
         let found = candidates(self.index, self.pairs(), q, 0.0).find(|&index| {
+            // S2-02
             self.pair(index).is_some_and(|(a, b)| {
                 in_triangle([a.left, a.right, b.right], q)
                     || in_triangle([a.left, b.right, b.left], q)
@@ -77,7 +78,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         found.is_some()
     }
 
-    /// Whether the point is certainly at most `limit` from the reference path.
+    /// Whether the point is certainly at most `limit` from the reference path (S2-01).
     pub(crate) fn certainly_near(&self, q: [f64; 2], limit: f64) -> bool {
         self.segments(q, limit).any(|segment| {
             segment_distance(q, segment.from, segment.to).certainly_at_most(Real::new(limit))
@@ -137,6 +138,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
     fn pair(&self, index: usize) -> Option<(&'a CrossSection, &'a CrossSection)> {
         let cross_sections = self.route.cross_sections;
         let next = cross_sections.get(index.saturating_add(1));
+        // S2-01, S2-02: of a closed route the last and the first one, too
         let next = next.or_else(|| cross_sections.first().filter(|_| self.route.closed));
         cross_sections.get(index).zip(next)
     }

@@ -29,12 +29,13 @@ pub(crate) struct MovingRectangle {
 }
 
 impl MovingRectangle {
+    /// A track goes on with its velocity, its direction unchanged (S3-01).
     pub(crate) const fn track(track: &Track) -> Self {
         let &Track { x, y, cos, sin, vx, vy, length, width, .. } = track;
         Self { centre: [x, y], direction: [cos, sin], velocity: [vx, vy], size: [length, width] }
     }
 
-    /// A detection stands still.
+    /// A detection stands still (S4-01).
     pub(crate) const fn detection(detection: &Detection) -> Self {
         let &Detection { x, y, cos, sin, length, width } = detection;
         Self { centre: [x, y], direction: [cos, sin], velocity: [0.0, 0.0], size: [length, width] }

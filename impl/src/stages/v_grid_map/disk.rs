@@ -51,7 +51,8 @@ impl GridGeometry {
         }
     }
 
-    /// Disk `i` of the footprint at a pose: (2i+1) L/(2n) - L/2 from the rectangle's centre.
+    /// Disk `i` of the footprint at a pose (S5-01): (2i+1) L/(2n) - L/2 from the rectangle's
+    /// centre.
     pub(crate) fn disk<'p>(&self, cycle: &Cycle<'_>, pose: &'p Pose, i: i64) -> Disk<'p> {
         let n = cycle.parameters.n;
         let odd = Real::integer(i) + Real::integer(i) + Real::ONE;
@@ -67,7 +68,7 @@ impl GridGeometry {
         }
     }
 
-    /// The largest number of squared cell widths that may be <= r^2.
+    /// The largest number of squared cell widths that may be <= r^2 (S5-03).
     pub(crate) fn dilation(&self) -> i64 {
         let ratio = self.radius_squared.over(self.resolution.squared());
         let most = floor(ratio).saturating_add(1);
@@ -76,7 +77,7 @@ impl GridGeometry {
     }
 
     /// Paper: the first occupied cell that marks a cell of the array in which the disk centre may
-    /// lie.
+    /// lie (S5-04).
     pub(crate) fn marked(&self, disk: &Disk<'_>, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
         let column = disk.column.over(self.resolution);
         let row = disk.row.over(self.resolution);
@@ -84,6 +85,7 @@ impl GridGeometry {
         let marks = cells_around(row, self.height)
             .filter_map(|k| {
                 let columns = cells_around(column, self.width);
+                // S5-03: cells of the array alone are marked, and outside is free (S5-06, I-07)
                 columns.filter_map(|i| occupied.within(i, k, steps)).min_by_key(place)
             })
             .min_by_key(place)?;
@@ -92,7 +94,8 @@ impl GridGeometry {
     }
 }
 
-/// The columns (or rows) of the array in whose closed interval the coordinate, in cells, may be.
+/// The columns (or rows) of the array in whose closed interval the coordinate, in cells, may be
+/// (S5-05).
 fn cells_around(coordinate: Real, count: i64) -> impl Iterator<Item = i64> {
     let middle = floor(coordinate);
     (middle.saturating_sub(1)..=middle.saturating_add(1)).filter(move |&index| {
