@@ -401,6 +401,8 @@ enum MufasaAdvice
   MUFASA_ADVICE_GAP_TOO_LONG = 6,
   // It is shorter: detections that are too small, or a center_offset that is too small.
   MUFASA_ADVICE_GAP_TOO_SHORT = 7,
+  // No tick comes: nothing is offloaded, and nobody looks for silence.
+  MUFASA_ADVICE_NO_TICK = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1039,6 +1041,20 @@ typedef struct MufasaDecision {
   MufasaAdvice advice;
 } MufasaDecision;
 
+// What is wrong with settings. The texts are empty when nothing is.
+typedef struct MufasaSettingsProblem {
+  // Dotted path of the field, such as stages.a_b.
+  char field[MUFASA_TEXT_BYTES];
+  // What is wrong and what would be right.
+  char message[MUFASA_TEXT_BYTES];
+  // What was given, in the unit of the field (the period of UNUSUAL: s), or NAN where the message says it.
+  double value;
+  // The limit below while the other fields are as they are, or NAN.
+  double least;
+  // The limit above, or NAN.
+  double most;
+} MufasaSettingsProblem;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1293,7 +1309,7 @@ MufasaStatus mufasa_monitor_state(const struct MufasaMonitor *monitor,
 // `settings` is null or points to settings; `problem` is null or can be written to.
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_settings_problem(const struct MufasaMonitorSettings *settings,
-                                             struct MufasaInvalidInput *problem);
+                                             struct MufasaSettingsProblem *problem);
 
 // Writes which field of the route made the last call of `mufasa_monitor_set_route` fail; empty texts when
 // it did not, or when a pointer or a length was wrong.

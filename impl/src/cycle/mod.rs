@@ -152,7 +152,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
     /// an input of it is not current. H-14 is part of stages ii and iv, and its places of stage v. Stage iv
-    /// tells `ambiguous` first here, and behind the gap in a cycle (H-14.46).
+    /// tells `ambiguous` first here, and behind the gap in a cycle.
     /// Source: `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
         let found = match stage {
