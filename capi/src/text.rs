@@ -44,7 +44,7 @@ const ACTIONS: [&CStr; 5] = [
     c"drop the element",
 ];
 
-const ADVICE: [&CStr; 8] = [
+const ADVICE: [&CStr; 9] = [
     c"no advice",
     c"cycles come in another period than period_ns",
     c"no detections are current; is their stamp right?",
@@ -53,6 +53,7 @@ const ADVICE: [&CStr; 8] = [
     c"the gap does not change as the speeds say; are they in m/s over ground?",
     c"the gap is longer than the way to the detection ahead; is it between bumpers?",
     c"the gap is shorter than the way to the detection ahead; are sizes and center_offset right?",
+    c"no tick comes before the cycles; nothing is offloaded without it",
 ];
 
 fn text(of: &[&'static CStr], number: u32) -> *const c_char {

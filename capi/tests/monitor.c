@@ -291,7 +291,7 @@ static void a_status_of_the_settings_has_a_field(void) {
   is_about(&it, MUFASA_STATUS_OK, "");
   it.profile = MUFASA_PROFILE_HARDENED;
   struct MufasaSettingsProblem problem = is_about(&it, MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD, "parameters.tau");
-  EXPECT(problem.value == 0.02 && problem.least == 0.05 && problem.most != problem.most);
+  EXPECT(problem.value == 0.02 && problem.least == 0.02 && problem.most != problem.most);
   it = settings();
   it.check_time_ns = -1;
   is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "check_time_ns");

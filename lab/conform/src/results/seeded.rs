@@ -183,7 +183,7 @@ mod tests {
         let bugs = record["bugs"].as_array().expect("bugs");
         let (list, page) =
             (read("examples/conformance/seeded_bugs.py"), read("docs/conformance.md"));
-        let starts = ["python(", "hardened(", "cpp(", "javascript("];
+        let starts = ["python(", "hardened(", "cpp(", "javascript(", "Bug("];
         let of_list = list.lines().filter_map(|line| {
             let line = line.strip_prefix("    ")?;
             let rest = starts.iter().find_map(|start| line.strip_prefix(start))?;
