@@ -27,6 +27,7 @@ pub use error::ConformError;
 pub use judge::class::{Breach, Class, Kind, Scale};
 pub use judge::explain::{Numbers, Told};
 pub use results::found::{Found, NotShrunk};
+pub use results::junit::xml_text;
 pub use results::summary::{Campaign, CaseCount, Summary};
 pub use settings::Settings;
 

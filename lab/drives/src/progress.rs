@@ -64,7 +64,8 @@ fn in_words_once_known(elapsed: Duration, done: u64, left: Duration) -> String {
     if elapsed >= SETTLED && done > 0 { in_words(left) } else { String::from("?") }
 }
 
-fn in_words(time: Duration) -> String {
+/// A time, rounded.
+pub fn in_words(time: Duration) -> String {
     match time.as_secs() {
         seconds @ 0..60 => format!("{seconds} s"),
         seconds @ 60..3600 => format!("{} min", seconds.div_ceil(60)),

@@ -41,6 +41,7 @@ use crate::explore;
 use crate::parameters_file;
 use crate::prove;
 use crate::slow;
+use crate::verify;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
 use mufasa_drives::check::{self, Format, Settings};
@@ -84,6 +85,8 @@ enum Command {
     Explore(explore::Settings),
     /// Prove what is claimed with every engine that is here, and list what is proved.
     Prove(prove::Settings),
+    /// Run what shows that this checkout is right, as far as its tools are here, and leave the evidence.
+    Verify(verify::Settings),
     /// Search for cycles that take many instructions.
     Slow(slow::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -153,6 +156,9 @@ pub fn main() -> ExitCode {
         }
         Command::Explore(settings) => explore(&settings, &mut out),
         Command::Prove(settings) => prove(settings, &mut out),
+        Command::Verify(settings) => {
+            interrupts().and_then(|stop| verify::here(&settings, &stop, &mut out))
+        }
         Command::Slow(settings) => slow::run(&settings, &mut out),
         #[cfg(feature = "link")]
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),

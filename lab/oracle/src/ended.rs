@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 
 use mufasa_drives::check;
 
-/// Something is not as it should be: the hardened profile let something happen.
-#[cfg(feature = "link")]
+/// Something is not as it should be: the hardened profile let something happen, or a check failed.
 pub(crate) const FAILED: u8 = 1;
 /// Bad input or arguments, or a file that cannot be written.
 pub(crate) const BAD_INPUT: u8 = 2;
 /// Model and text, or model and implementation, disagree.
 pub(crate) const DISAGREES: u8 = 3;
 /// A command was ended before its end.
-#[cfg(feature = "link")]
 pub(crate) use mufasa_conform::INTERRUPTED;
+/// Something was not run that has to be.
+pub(crate) const LEFT_OUT: u8 = 4;
 
 /// Why a command does nothing more.
 #[derive(Debug)]

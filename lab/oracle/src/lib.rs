@@ -17,3 +17,4 @@ mod rows;
 pub mod schemas;
 pub mod slow;
 mod spelling;
+pub mod verify;

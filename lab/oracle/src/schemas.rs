@@ -20,9 +20,10 @@ use serde_json::Value;
 
 use crate::explore::report::ExplorationReport;
 use crate::prove::claim::Claim;
+use crate::verify::evidence::Evidence;
 
 /// The schemas by the stem of their file's name: those of records and answers, of a line of `check
-/// --json`, of the summary of `conform`, of a line of `prove`, of what `vehicle` and `station` write at their end, of a line of the log of `vehicle` and of what
+/// --json`, of the summary of `conform`, of a line of `prove`, of what `verify`, `vehicle` and `station` write at their end, of a line of the log of `vehicle` and of what
 /// `explore` and `evaluate` write.
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
@@ -30,6 +31,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.extend([
         ("conform-summary", schema::written::<Summary>()),
         ("claim", schema::written::<Claim>()),
+        ("evidence", schema::written::<Evidence>()),
         ("exploration", schema::written::<Vec<ExplorationReport>>()),
     ]);
     #[cfg(feature = "link")]

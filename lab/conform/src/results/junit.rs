@@ -28,13 +28,13 @@ pub fn xml(summary: &Summary) -> String {
     for CaseCount { kind, profile, configuration, expected, cases, .. } in passed {
         let parts = [kind.name(), profile, configuration, expected];
         let words: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));
+        let name = xml_text(&format!("{} ({cases} cases)", words.join(" ")));
         let _ = writeln!(text, "<testcase classname=\"mufasa.{}\" name=\"{name}\"/>", kind.name());
     }
     for found in &summary.classes {
         let Found { class, id, count, told, record, before, .. } = found;
-        let (kind, name) = (class.kind.name(), escaped(&class.to_string()));
-        let message = escaped(&format!("{count} cases; exact: {}", told.expected));
+        let (kind, name) = (class.kind.name(), xml_text(&class.to_string()));
+        let message = xml_text(&format!("{count} cases; exact: {}", told.expected));
         let mut body = format!("program: {}\nexact: {}\n", told.answered, told.expected);
         if let Some(numbers) = &told.numbers {
             let _ = writeln!(
@@ -58,7 +58,7 @@ pub fn xml(summary: &Summary) -> String {
             "<testcase classname=\"mufasa.{kind}\" name=\"{name}\"><failure type=\"{}\" \
              message=\"{message}\">{}</failure></testcase>",
             class.breach.name(),
-            escaped(&body)
+            xml_text(&body)
         );
     }
     if summary.interrupted {
@@ -74,7 +74,7 @@ pub fn xml(summary: &Summary) -> String {
 }
 
 /// Text for XML: markup escaped, characters that XML cannot hold replaced.
-fn escaped(text: &str) -> String {
+pub fn xml_text(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_is_escaped() {
-        assert_eq!(escaped("a<b & \"c\"\u{0}\n"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&#10;");
+    fn text_is_xml_text() {
+        assert_eq!(xml_text("a<b & \"c\"\u{0}\n"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&#10;");
     }
 }

@@ -20,3 +20,4 @@ mod shards;
 mod slow;
 mod speed;
 mod ulm;
+mod verify;

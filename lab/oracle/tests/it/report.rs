@@ -19,7 +19,7 @@ fn text(folder: &Path, name: &str) -> String {
 }
 
 /// The links of a page. It is XML but for its doctype and its meta elements: so every tag is closed in its order.
-fn links(page: &str) -> Vec<String> {
+pub fn links(page: &str) -> Vec<String> {
     let page = page.strip_prefix("<!DOCTYPE html>\n").expect("a doctype");
     let closed = |line: &str| match line.strip_suffix('>') {
         Some(meta) if line.starts_with("<meta ") => format!("{meta}/>"),
