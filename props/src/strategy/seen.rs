@@ -57,7 +57,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         4 => scene.tracks_age = draw.near_ns(cycle.parameters.max_age_ns),
         5 => {
             scene.known =
-                draw.pick(&[[true, false, false], [false, true, false], [false, true, true]])
+                draw.pick(&[[true, false, false], [false, true, false], [false, true, true]]);
         }
         6 => scene.error = (draw.near(limit), 0.0),
         7 => cycle.parameters.v_object = draw.near(scene.velocity.1.hypot(scene.velocity.0)),

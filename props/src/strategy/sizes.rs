@@ -169,7 +169,8 @@ fn points(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         let (x, y) = (from.x + part * (to.x - from.x), from.y + part * (to.y - from.y));
         TrajectoryPoint { t_ns, x, y, ..from }
     };
-    list.points.splice(at + 1..at + 1, (1..=more).map(between));
+    let next = at + 1;
+    list.points.splice(next..next, (1..=more).map(between));
 }
 
 /// Divides the road between two cross sections.
@@ -192,7 +193,8 @@ fn sections(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         section.right = [on(from.right[0], to.right[0]), on(from.right[1], to.right[1])];
         section
     };
-    sections.splice(at + 1..at + 1, (1..=more).map(between));
+    let next = at + 1;
+    sections.splice(next..next, (1..=more).map(between));
 }
 
 /// Free cells on all sides.
@@ -210,17 +212,15 @@ fn cells(draw: &mut Draw<'_>, grid: &mut Grid) {
     let columns = size(draw, all.min(CELLS_A_SIDE)).max(width);
     let rows = (all / columns).clamp(height, CELLS_A_SIDE);
     let (left, below) = (place(draw, columns - width), place(draw, rows - height));
-    let enlarged = |old: &Vec<u8>| {
+    for bitmap in [Some(&mut grid.occupied), grid.unknown.as_mut()].into_iter().flatten() {
         let mut new = vec![0; (columns * rows).div_ceil(8)];
-        let is_set = |bit: &usize| old[bit / 8] >> (bit % 8) & 1 == 1;
+        let is_set = |bit: &usize| bitmap[bit / 8] >> (bit % 8) & 1 == 1;
         for bit in (0..width * height).filter(is_set) {
             let at = (bit / width + below) * columns + bit % width + left;
             new[at / 8] |= 1 << (at % 8);
         }
-        new
-    };
-    grid.occupied = enlarged(&grid.occupied);
-    grid.unknown = grid.unknown.as_ref().map(enlarged);
+        *bitmap = new;
+    }
     let Grid { x, y, cos, sin, resolution, .. } = *grid;
     let corner = Frame { x, y, cos, sin };
     (grid.x, grid.y) = corner.at(-resolution * left as f64, -resolution * below as f64);
