@@ -109,7 +109,7 @@ pub fn run(
                 bar.set_position(done);
                 bar.set_message(format!("{}, about {left} left", check.name));
             };
-            let ran = run::run(check, &place, stop, meanwhile);
+            let ran = run::outcome(check, &place, stop, meanwhile);
             let Some(outcome) = ran.map_err(|error| format!("{}: {error}", check.name))? else {
                 bar.finish_and_clear();
                 writeln!(

@@ -28,7 +28,7 @@ pub(super) struct Place<'p> {
 }
 
 /// Runs a check, and calls `meanwhile` with the seconds so far; none: it was stopped. Errors: those of its log.
-pub(super) fn run(
+pub(super) fn outcome(
     check: &Check,
     place: &Place<'_>,
     stop: &AtomicBool,
