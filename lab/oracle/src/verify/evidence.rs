@@ -124,7 +124,8 @@ impl Evidence {
     pub(super) fn new(asked: &'static str, root: &Path) -> Self {
         let own = ("mufasa", Some(env!("MUFASA_VERSION").to_owned()));
         let tools = TOOLS.map(|(tool, command)| (tool, said(root, command)));
-        let commit = said(root, &["git", "rev-parse", "HEAD"]).unwrap_or_default();
+        let commit = said(root, &["git", "rev-parse", "HEAD"]);
+        let commit = commit.unwrap_or_else(|| String::from("unknown"));
         let changes = said(root, &["git", "status", "--porcelain"]).map(|_| " with changes");
         Self {
             complete: false,

@@ -116,14 +116,19 @@ fn checks(evidence: &Evidence, place: &Place<'_>) -> String {
     let most = evidence.checks.iter().map(|it| it.taken).fold(1.0, f64::max);
     let row = |outcome: &Outcome| {
         let Outcome { check, status, reason, taken, .. } = outcome;
-        let [name, shows, why] =
-            [check.name.as_str(), &check.shows, reason.as_deref().unwrap_or_default()].map(escape);
+        let [name, shows] = [&check.name, &check.shows].map(|it| escape(it));
+        let left_out = outcome.cases.iter().filter(|it| it.status == Status::NotRun);
+        let left_out: Vec<_> = left_out.map(|it| it.name.as_str()).collect();
+        let (why, how) = match reason {
+            Some(reason) => (escape(reason), class(*status)),
+            None => (escape(&left_out.join("; ")), class(Status::NotRun)),
+        };
         let (class, said, share) = (class(*status), status.name(), 100.0 * taken / most);
         let time = if *taken > 0.0 { format!("{taken:.1} s") } else { String::new() };
         format!(
             "<tr><td><b>{name}</b></td><td class=\"status {class}\">{said}</td>\
              <td class=\"number\" style=\"--share:{share:.0}%\">{time}</td>\
-             <td class=\"long\">{shows}<div class=\"{class}\">{why}</div>\n{}</td></tr>\n",
+             <td class=\"long\">{shows}<div class=\"{how}\">{why}</div>\n{}</td></tr>\n",
             details(outcome, place)
         )
     };
@@ -142,7 +147,7 @@ fn details(outcome: &Outcome, place: &Place<'_>) -> String {
     let said = String::from_utf8_lossy(&said);
     let lines: Vec<_> = said.lines().filter(|_| has_failed).map(escape).collect();
     let end = lines[lines.len().saturating_sub(SHOWN)..].join("\n");
-    let end = if has_failed { format!("<pre>{end}</pre>\n") } else { end };
+    let end = if end.is_empty() { end } else { format!("<pre>{end}</pre>\n") };
     let mut cases: Vec<&Case> = outcome.cases.iter().collect();
     cases.sort_by_key(|case| Reverse(case.status));
     let item = |case: &&Case| {

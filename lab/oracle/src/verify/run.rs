@@ -112,7 +112,7 @@ fn cases(text: &str) -> Vec<Case> {
                 _ if end.starts_with("ignored") => Status::NotRun,
                 _ => continue,
             };
-            let reason = (status != Status::Passed).then(|| end.to_owned());
+            let reason = (status == Status::NotRun).then(|| end.to_owned());
             Case { name: name.to_owned(), status, reason }
         } else {
             continue;

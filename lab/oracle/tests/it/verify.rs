@@ -204,6 +204,9 @@ fn the_page_shows_all_and_fetches_nothing() {
     ] {
         assert!(page.contains(needed), "{needed}: {page}");
     }
+    let others = verify(&folder("page-others"), &[good(), others()], &release()).1;
+    let left_out = "<div class=\"not-run\">no data</div>";
+    assert!(text(&others, "report.html").contains(left_out));
     assert!(!page.contains("<script") && !page.contains("http:"), "{page}");
     let sources: Vec<_> = page.split(" src=\"").skip(1).collect();
     assert!(sources.len() == 2 && sources.iter().all(|it| it.starts_with("data:image/svg")));
