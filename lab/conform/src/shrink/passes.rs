@@ -1,20 +1,26 @@
 //! All passes that make a record small, until nothing changes any more.
 
+use std::time::Instant;
+
 use crate::cases::question::{Damaged, Question};
 use crate::shrink::record::Case;
 use crate::shrink::{cycle, sequence};
 
-/// The smallest record found; `shows` says whether one still shows the class.
-pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
+/// The smallest record found until then; `shows` says whether one still shows the class.
+pub fn smallest(
+    question: &Question,
+    until: Instant,
+    shows: &mut dyn FnMut(&Question) -> bool,
+) -> Question {
     if let Question::Line(Damaged { record, damage, at }) = question {
         let damaged = |record: Question| {
             let record = Box::new(record);
             Question::Line(Damaged { record, damage: *damage, at: *at })
         };
-        return damaged(smallest(record, &mut |it| shows(&damaged(it.clone()))));
+        return damaged(smallest(record, until, &mut |it| shows(&damaged(it.clone()))));
     }
     let Some(value) = question.record() else { return question.clone() };
-    let mut case = Case { value, question: question.clone(), shows };
+    let mut case = Case { value, question: question.clone(), shows, until };
     // At most a few times, until nothing changes any more.
     for _ in 0..4 {
         let before = case.value.clone();
@@ -38,15 +44,30 @@ pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use mufasa_model::cycle::check;
     use mufasa_model::input::cycle::Profile;
     use mufasa_model::monitor::messages::EventKind;
     use mufasa_model::report::{FailedStage, Reading, Stage};
 
+    use super::smallest as smallest_until;
     use super::*;
     use crate::cases::generate::Generator;
     use crate::judge::class::Kind;
     use mufasa_records::monitor_answer::answers;
+
+    fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
+        smallest_until(question, Instant::now() + Duration::from_secs(600), shows)
+    }
+
+    /// A list of thousands of what cannot be left out is given up in time.
+    #[test]
+    fn nothing_is_tried_when_the_time_is_over() {
+        let large = first(Kind::Cycle, |it| it.objects() > 1);
+        let now = Instant::now();
+        assert_eq!(smallest_until(&large, now, &mut |_| true).line("x"), large.line("x"));
+    }
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
         let generator = Generator { seed: 5, profile: Profile::PAPER, kinds: vec![kind] };

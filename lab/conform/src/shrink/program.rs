@@ -148,7 +148,7 @@ impl<'a> Hunt<'a> {
             if !self.shows(question) {
                 break;
             }
-            let found = smallest(question, &mut |it| self.shows(it));
+            let found = smallest(question, self.limits.until, &mut |it| self.shows(it));
             self.subject.restart();
             let examined = self.examined(&found)?;
             if examined.class.as_ref() == Some(self.class) {

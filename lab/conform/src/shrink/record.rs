@@ -3,6 +3,8 @@
 //! Works on the JSON value of a record: what may be left out, and what is a list or a number, is
 //! what reads as a record without it.
 
+use std::time::Instant;
+
 use serde_json::{Value, json};
 
 use crate::cases::question::Question;
@@ -15,11 +17,16 @@ pub struct Case<'a> {
     pub question: Question,
     /// Whether a record still shows the class.
     pub shows: &'a mut dyn FnMut(&Question) -> bool,
+    /// When nothing is tried any more: what is no record is never asked about, and takes its time all the same.
+    pub until: Instant,
 }
 
 impl Case<'_> {
     /// Makes a change if it leaves a record that still shows the class.
     pub fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
+        if Instant::now() >= self.until {
+            return false;
+        }
         let mut changed = self.value.clone();
         change(&mut changed);
         if changed == self.value {
