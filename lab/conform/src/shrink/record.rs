@@ -24,7 +24,7 @@ pub struct Case<'a> {
 impl Case<'_> {
     /// Makes a change if it leaves a record that still shows the class.
     pub fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
-        if Instant::now() >= self.until {
+        if self.is_over() {
             return false;
         }
         let mut changed = self.value.clone();
@@ -38,6 +38,10 @@ impl Case<'_> {
             (self.value, self.question) = (changed, question);
         }
         shows
+    }
+
+    fn is_over(&self) -> bool {
+        Instant::now() >= self.until
     }
 
     /// Changes the values at these places, all at once.
@@ -85,7 +89,7 @@ impl Case<'_> {
     /// Thins every list, the outer ones first.
     pub fn lists(&mut self) {
         let mut open = vec![String::new()];
-        while let Some(pointer) = open.pop() {
+        while let Some(pointer) = open.pop().filter(|_| !self.is_over()) {
             self.thin(&pointer);
             match self.value.pointer(&pointer) {
                 Some(Value::Object(fields)) => {
@@ -105,7 +109,9 @@ impl Case<'_> {
             return;
         };
         let place = [pointer.to_owned()];
-        thinned(items, &mut |fewer| self.change_at(&place, |_| Some(fewer.into())));
+        let until = self.until;
+        let is_over = || Instant::now() >= until;
+        thinned(items, &is_over, &mut |fewer| self.change_at(&place, |_| Some(fewer.into())));
     }
 
     /// Stations and ids become 0 or 1; the times of events 0, or the time of the event before;
@@ -135,11 +141,15 @@ impl Case<'_> {
 }
 
 /// Leaves out all, halves, quarters, and so on to single items, from the end, while what stays still shows.
-pub fn thinned<T: Clone>(mut items: Vec<T>, shows: &mut dyn FnMut(&[T]) -> bool) -> Vec<T> {
+pub fn thinned<T: Clone>(
+    mut items: Vec<T>,
+    is_over: &dyn Fn() -> bool,
+    shows: &mut dyn FnMut(&[T]) -> bool,
+) -> Vec<T> {
     let mut size = items.len();
     while size > 0 {
         let mut end = items.len();
-        while end > 0 {
+        while end > 0 && !is_over() {
             let start = end.saturating_sub(size);
             let fewer = [&items[..start], &items[end..]].concat();
             if shows(&fewer) {
