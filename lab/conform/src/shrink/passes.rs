@@ -58,7 +58,7 @@ mod tests {
     use mufasa_records::monitor_answer::answers;
 
     fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
-        smallest_until(question, Instant::now() + Duration::from_secs(600), shows)
+        smallest_until(question, Instant::now() + Duration::from_mins(10), shows)
     }
 
     /// A list of thousands of what cannot be left out is given up in time.
