@@ -47,20 +47,26 @@ fn compile(compiler: &str, arguments: &[&OsStr]) {
 
 /// Compiles a program of this crate with the library, runs it, and gives what it says.
 fn says(compiler: &str, language: [&str; 3], source: &str) -> String {
+    let output = ran(compiler, language, &here().join(source), &[]);
+    assert!(output.status.success(), "{}", text(&output));
+    text(&output)
+}
+
+/// Compiles a program with the library and these flags, and runs it.
+fn ran(compiler: &str, language: [&str; 3], source: &Path, flags: &[&str]) -> Output {
     let library = libraries().join("libmufasa_capi.a");
     assert!(library.exists(), "{} was not built", library.display());
     let [standard, option, name] = language;
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let (include, source) = (here().join("include"), here().join(source));
-    let mut arguments: Vec<&OsStr> = [standard, "-g", "-I"].map(OsStr::new).to_vec();
+    let include = here().join("include");
+    let mut arguments: Vec<&OsStr> = flags.iter().map(OsStr::new).collect();
+    arguments.extend([standard, "-g", "-I"].map(OsStr::new));
     arguments.extend([include.as_os_str(), "-x".as_ref(), option.as_ref(), source.as_os_str()]);
     arguments.extend(["-x".as_ref(), "none".as_ref(), library.as_os_str()]);
     arguments.extend(SYSTEM_LIBRARIES.map(OsStr::new));
     arguments.extend(["-o".as_ref(), program.as_os_str()]);
     compile(compiler, &arguments);
-    let output = run(&program, &[]).expect("the program that was just built");
-    assert!(output.status.success(), "{}", text(&output));
-    text(&output)
+    run(&program, &[]).expect("the program that was just built")
 }
 
 #[test]
@@ -77,6 +83,37 @@ fn the_vehicle_loop_offloads_in_c_and_in_cpp() {
     let in_c = says(cc, ["-std=c11", "c", "vehicle_c"], "examples/vehicle.c");
     assert!(in_c.ends_with("188 of 400 cycles offloaded, 1 fallback\n"), "{in_c}");
     assert_eq!(in_c, says(cxx, ["-std=c++17", "c++", "vehicle_cpp"], "examples/vehicle.c"));
+}
+
+const SANITIZERS: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+
+/// What the library writes into memory of C is within its bounds: the sanitizers see each access of the programs, and each
+/// call of `memcpy` and the like. They end a program that reads one point too far.
+#[test]
+fn sanitizers_find_nothing_in_the_c_programs() {
+    let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
+    let wrong = Path::new(env!("CARGO_TARGET_TMPDIR")).join("beyond.c");
+    let lines = "#include <stdlib.h>\n#include \"mufasa.h\"\nint main(void) {\n\
+                 struct MufasaTrajectoryPoint *points = calloc(2, sizeof *points);\n\
+                 volatile int last = 2;\n double x = points[last].x;\n free(points);\n return x > 1.0;\n}\n";
+    fs::write(&wrong, lines).expect("a source can be written");
+    let empty = wrong.with_file_name("empty.c");
+    fs::write(&empty, "int main(void) { return 0; }\n").expect("a source can be written");
+    let linked = wrong.with_file_name("empty");
+    let [one, other] = SANITIZERS.map(OsStr::new);
+    let tried = run(cc, &[one, other, empty.as_os_str(), "-o".as_ref(), linked.as_os_str()]);
+    if !tried.is_some_and(|it| it.status.success()) {
+        println!("NOT RUN: sanitizers_find_nothing_in_the_c_programs: {cc} has no sanitizers");
+        return;
+    }
+    let sources = ["tests/check.c", "tests/monitor.c", "examples/vehicle.c"];
+    for (name, source) in ["check_s", "monitor_s", "vehicle_s"].into_iter().zip(sources) {
+        let output = ran(cc, ["-std=c11", "c", name], &here().join(source), &SANITIZERS);
+        assert!(output.status.success(), "{source}: {}", text(&output));
+    }
+    let output = ran(cc, ["-std=c11", "c", "beyond_s"], &wrong, &SANITIZERS);
+    assert!(!output.status.success(), "it read beyond its points");
+    assert!(text(&output).contains("heap-buffer-overflow"), "{}", text(&output));
 }
 
 /// The same lines compile when each status is looked at.

@@ -30,7 +30,7 @@ struct Parameters {
   double theta_tr = 0.2, theta_map = 0.3, theta_obj = 5.0, a_b = 8.0, safety_time = 1.8;
   double theta_track_max = 1.0, tau = 0.1, a_max = 3.0, start_tolerance = 2.0, v_max = 150.0;
   double theta_velocity = 2.0, lateral_tolerance = 0.5, v_object = 70.0;
-  double t_yield = 1.5, a_yield = 3.0;
+  double t_yield = 2.0, a_yield = 3.0;
   double delta = 1e-6;
   std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 4, step_max_ns = 200000000,
                work_limit = 340000;

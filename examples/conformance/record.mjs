@@ -20,7 +20,7 @@ const PARAMETERS = {
   theta_track_max: [1, THRESHOLD], miss_budget: [4n, [0n, 64n]], tau: [0.1, SECONDS],
   a_max: [3, RATE], start_tolerance: [2, THRESHOLD], v_max: [150, ABOVE_ZERO],
   step_max_ns: [200_000_000n, [0n, MINUTE]], theta_velocity: [2, ABOVE_ZERO],
-  lateral_tolerance: [0.5, THRESHOLD], v_object: [70, ABOVE_ZERO], t_yield: [1.5, SECONDS],
+  lateral_tolerance: [0.5, THRESHOLD], v_object: [70, ABOVE_ZERO], t_yield: [2, SECONDS],
   a_yield: [3, RATE],
 };
 

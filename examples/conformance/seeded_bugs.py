@@ -44,6 +44,42 @@ GREEDY = """    free, total = set(range(len(costs[0]))), 0.0
     return total
 """
 
+# Fields that somebody keeps in 32 bits: the program in C++ decides the paper profile, the one in Python the hardened one.
+FLOATS = {
+    "ego": ("c.ego.{0} = float(c.ego.{0});", "x y cos sin length width speed center_offset"),
+    "trajectory": ("if (c.trajectory) for (auto& it : c.trajectory->items) it.{0} = float(it.{0});", "x y cos sin"),
+    "tracks": ("if (c.tracks) for (auto& it : c.tracks->items) it.{0} = float(it.{0});",
+               "x y cos sin vx vy length width"),
+    "detections": ("if (c.detections) for (auto& it : c.detections->items) it.{0} = float(it.{0});",
+                   "x y cos sin length width"),
+    "lead": ("if (c.lead) c.lead->{0} = float(c.lead->{0});", "gap speed"),
+    "route": ("for (auto& it : c.stations) it.{0} = float(it.{0});", "x y left.x left.y right.x right.y"),
+    "grid": ("if (c.grid) c.grid->{0} = float(c.grid->{0});", "x y cos sin resolution"),
+    "parameters": ("c.parameters.{0} = float(c.parameters.{0});", "theta_tr theta_map theta_obj a_b safety_time")}
+FLOATS_HARDENED = {
+    "parameters": ('cycle["parameters"]["{0}"] = float32(cycle["parameters"]["{0}"])',
+                   "theta_track_max tau a_max start_tolerance v_max theta_velocity lateral_tolerance v_object t_yield "
+                   "a_yield"),
+    "history": ('for one in cycle["detection_history"]: '
+                '[it.update({0}=float32(it["{0}"])) for it in one["items"]]', "x y")}
+
+
+def floats():
+    for part, (text, fields) in FLOATS.items():
+        for field in fields.split():
+            yield cpp(f"float32-{part}-{field}", f"{part}: {field} as a float of 32 bits",
+                      ("  return c;\n}\n\n// Domain.", f"  {text.format(field)}\n  return c;\n}}\n\n// Domain."),
+                      file="record.hpp")
+    for part, (text, fields) in FLOATS_HARDENED.items():
+        for field in fields.split():
+            yield Bug(f"float32-{part}-{field}", "Python", "hardened", "cycle", f"{part}: {field} as a float of 32 bits",
+                      (("record.py", "import math\n", "import ctypes\nimport math\n"),
+                       ("record.py", "class Broken(Exception):",
+                        "def float32(value):\n    return ctypes.c_float(value).value\n\n\nclass Broken(Exception):"),
+                       ("record.py", '    cycle["now_ns"] = integer(record["now_ns"])\n',
+                        f'    {text.format(field)}\n    cycle["now_ns"] = integer(record["now_ns"])\n')))
+
+
 BUGS = [
     python("le-for-lt", "paper.py", 'mean < cycle["parameters"]["theta_tr"] - EPS',
            'mean <= cycle["parameters"]["theta_tr"]',
@@ -294,6 +330,7 @@ BUGS = [
     javascript("rows-padded", "stage v: each row of a bitmap begins with a byte",
                ("const index = 8 * at + bit;", "const padded = 8 * Math.ceil(width / 8);\n"
                 "      const at0 = 8 * at + bit, index = at0 % padded + width * Math.floor(at0 / padded);")),
+    *floats(),
 ]
 
 

@@ -142,6 +142,12 @@ mod tests {
     }
 
     #[test]
+    fn a_bar_of_unknown_length_is_not_full() {
+        let (unknown, known) = (bar(0, "{bar}"), bar(3, "{bar}"));
+        assert_eq!([unknown.length(), known.length()], [None, Some(3)]);
+    }
+
+    #[test]
     fn in_the_first_seconds_it_is_not_known_what_is_left() {
         let said = |elapsed, done| {
             in_words_once_known(Duration::from_secs(elapsed), done, Duration::from_secs(9))

@@ -50,7 +50,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.trajectory = Some(base::straight(&cycle.ego, frame, cycle.now_ns, &cycle.parameters));
     let mut scene = scene(draw);
     let limit = cycle.parameters.theta_track_max;
-    match draw.below(11) {
+    match draw.below(13) {
         0 => {}
         1 => shared(draw, &mut scene, limit),
         2 | 3 => slanted(draw, &mut scene, cycle.parameters.theta_velocity),
@@ -68,6 +68,16 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
             scene.seen_age = 60_000_000_000 - draw.near_ns(of);
         }
         9 => disputed(draw, &mut scene, limit),
+        10 => {
+            // Two lists have it, of which one is about as young or old as may be.
+            scene.known = [true, false, true];
+            match draw.below(3) {
+                0 => scene.ages[0] = draw.near_ns(200_000_000),
+                _ => scene.ages[2] = draw.near_ns(1_000_000_000),
+            }
+        }
+        // The thing, which is explained, may stand where something was farther off, and come from there.
+        11 => scene.items[1].push((scene.at.0, scene.at.1 - draw.near(limit))),
         _ => of_several(draw, &mut scene, &cycle.parameters),
     }
     put(draw, frame, &mut cycle, &scene);

@@ -1,6 +1,7 @@
 //! Lists and grids of any size that the domain allows, with what decides the cycle anywhere in them.
 
 use mufasa_model::input::cycle::{Cycle, Detection, Grid, TrajectoryPoint};
+use mufasa_model::report::{FailedStage, Stage};
 
 use super::base::{self, Frame};
 use super::draw::Draw;
@@ -57,6 +58,19 @@ impl Part {
         let points = cycle.trajectory.as_ref().map_or(0, |list| list.points.len());
         let is_little = CROSS_SECTIONS * points <= POINTS_AND_SECTIONS;
         self.is_in(cycle) && (is_little || !matches!(self, Self::Sections))
+    }
+
+    /// Whether the last item of the list decides behind stage i, to whoever says which stage fails.
+    pub fn decides(self, cycle: &Cycle, failed: impl Fn(&Cycle) -> Option<FailedStage>) -> bool {
+        let mut without = cycle.clone();
+        match self {
+            Self::Points => without.trajectory.iter_mut().for_each(|it| _ = it.points.pop()),
+            Self::Tracks => without.tracks.iter_mut().for_each(|it| _ = it.items.pop()),
+            Self::Detections => without.detections.iter_mut().for_each(|it| _ = it.items.pop()),
+            Self::History | Self::Sections | Self::Cells => return true,
+        }
+        let (with, without) = (failed(cycle), failed(&without));
+        with != without && with != Some(FailedStage::Stage(Stage::I))
     }
 }
 

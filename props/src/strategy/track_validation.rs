@@ -23,6 +23,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (2, _) | (3 | 4, Profile::PAPER) => threshold_to_mean(draw, frame, &mut cycle),
         (3, _) => pair_limit(draw, frame, &mut cycle),
         (5, _) | (6, Profile::PAPER) => radius(draw, frame, &mut cycle),
+        (6, _) if draw.one_in(2) => missed(draw, frame, &mut cycle),
         (4 | 6, _) => left_out(draw, frame, &mut cycle),
         (_, _) => anything(draw, frame, &mut cycle),
     }
@@ -129,6 +130,31 @@ fn left_out(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.tracks = Some(TrackList { stamp_ns: tracks_ns, items: tracks });
     cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items: seen });
     history::back(draw, cycle);
+}
+
+/// Backed tracks, of which as many are missed as may be left out, or one more; those that are seen are off by so much
+/// that the mean is near `theta_tr`, with those that are left out, with distance 0, or without them.
+fn missed(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let budget = draw.pick(&[1, 2, 0]);
+    cycle.parameters.miss_budget = budget;
+    let spare = usize::try_from(budget).unwrap_or(0);
+    let (seen, missed) = (draw.between(1, 2), spare + draw.pick(&[0, 0, 1]));
+    let places: Vec<Place> =
+        (0..seen + missed).map(|index| (12.0 * index as f64 - 20.0, 6.0)).collect();
+    let counted = draw.pick(&[0, missed.min(spare)]);
+    let mean = draw.near(cycle.parameters.theta_tr);
+    let error = draw.pick(&[0.0, 1.0]) * mean * (seen + counted) as f64 / seen as f64;
+    let at = |place: &Place| (place.0, place.1 + error);
+    let detections: Vec<Place> = places[..seen].iter().map(at).chain([(95.0, 0.0)]).collect();
+    fill(draw, frame, cycle, &places, &detections);
+    let seen_ns = cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns);
+    cycle.detection_history = [300_000_000, 500_000_000, 800_000_000]
+        .into_iter()
+        .map(|age| DetectionList {
+            stamp_ns: seen_ns - draw.odd_ns(age),
+            items: places.iter().map(|place| detection(frame, *place)).collect(),
+        })
+        .collect();
 }
 
 /// Few objects anywhere, at times none.

@@ -38,8 +38,12 @@ fn a_folder_has_one_page_with_a_section_of_each_experiment() {
     let evaluate = |experiment: &str| {
         let told = said(&folder, &[&["evaluate", experiment], &SMALL[..]].concat());
         assert!(matches!(told.code, Some(0 | 1)), "{}", told.err);
+        // Under the table stands what its names mean.
+        let legend = told.out.lines().any(|line| line.starts_with("sofof checks the age alone"));
+        assert_eq!(legend, told.out.contains("sofof"), "{}", told.out);
+        legend
     };
-    evaluate("failures");
+    assert!(evaluate("failures"));
     let one = text(&folder, "results/report.html");
     evaluate("stages");
     evaluate("failures");

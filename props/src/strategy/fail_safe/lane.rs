@@ -17,7 +17,7 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let (x, y) = road.at(0.0, -apart);
     let on_route = Frame { x, y, ..road };
     cycle.route = base::road(on_route, 20.0);
-    if draw.one_in(6) {
+    if draw.one_in(3) {
         // It, or the last place of the CAV, is about at the end of the route.
         let stop = base::s_stop(cycle) + cycle.ego.center_offset;
         let end = draw.pick(&[8.0, stop, -9.0]);
