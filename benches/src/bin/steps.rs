@@ -17,11 +17,14 @@ use mufasa_benches::worst::{
 };
 
 /// What is run: a stage, or the checks of the input.
-const INPUTS: [(&str, Option<Stage>); 12] = [
+const INPUTS: [(&str, Option<Stage>); 15] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
     ("history", Some(Stage::I)),
+    ("turned", Some(Stage::I)),
+    ("turned-history", Some(Stage::I)),
+    ("surplus", Some(Stage::I)),
     ("off-route", Some(Stage::Ii)),
     ("on-route", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
@@ -45,12 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     };
     if input == "calibrate" {
-        let mut taken = 0;
-        measured(&mut || {
-            taken = Monitor::calibrate();
-            true
-        });
-        println!("{taken} passes");
+        calibrate();
         return Ok(());
     }
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
@@ -82,6 +80,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let in_row = places(size, 1e-4).zip(0..).map(|(x, id)| track(id, x + 3e-5, 0.01));
     let in_row: Vec<_> = in_row.collect();
     let rows = [300, 500, 800].map(|ms| earlier(&row, ms));
+    // The same along y.
+    let [turned_crowd, turned_in_row] = [&crowd, &in_row].map(|items| turned_tracks(items));
+    let [turned_line, turned_row] = [&line, &row].map(|items| turned(items));
+    let turned_rows = [300, 500, 800].map(|ms| earlier(&turned_row, ms));
+    // Three times as many tracks as detections: the tracks are the columns.
+    let upright: Vec<_> = places(size, 1.0).zip(0..).map(|(y, id)| track(id, 0.0, y)).collect();
+    let upright_seen: Vec<_> = upright.iter().copied().map(seen_as).collect();
+    let far = std::iter::once(detection(0.0, 2.0 * f64::from(size)));
+    let few: Vec<_> = places(size / 3, 1e-3).map(|y| detection(0.5, y)).chain(far).collect();
+    let all = [300, 500, 800].map(|ms| earlier(&upright_seen, ms));
     // Beside the CAV's way, as near as plain doubles tell apart, and still or from a metre farther aside.
     let touching = 0.5 * (base.ego.width + 1.8) + 1e-3;
     let beside: Vec<_> = (0..size).map(|_| detection(9.0, touching)).collect();
@@ -119,6 +127,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         "crowd" => Cycle { detection_history: &rows, ..lists(&crowd, &row) },
         "assignment" => lists(&crowd, &line),
         "history" => Cycle { detection_history: &rows, ..lists(&in_row, &row) },
+        "turned" => lists(&turned_crowd, &turned_line),
+        "turned-history" => {
+            Cycle { detection_history: &turned_rows, ..lists(&turned_in_row, &turned_row) }
+        }
+        "surplus" => Cycle { detection_history: &all, ..lists(&upright, &few) },
         "off-route" => Cycle { parameters: wide, ..plan(&off) },
         "on-route" => plan(&on),
         "tracks" => Cycle { tracks: Some(tracks(&below)), ..plan(&roof) },
@@ -139,6 +152,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     count(&cycle, *stage);
     Ok(())
+}
+
+fn turned_tracks(items: &[Track]) -> Vec<Track> {
+    items.iter().map(|it| Track { x: it.y, y: it.x, ..*it }).collect()
+}
+
+fn turned(items: &[Detection]) -> Vec<Detection> {
+    items.iter().map(|it| Detection { x: it.y, y: it.x, ..*it }).collect()
+}
+
+fn calibrate() {
+    let mut taken = 0;
+    measured(&mut || {
+        taken = Monitor::calibrate();
+        true
+    });
+    println!("{taken} passes");
 }
 
 /// Runs the stage, and prints how many steps it may take.

@@ -94,19 +94,34 @@ impl ColumnsByCell {
         least.map(|least| least - MARGIN)
     }
 
-    /// The cells that are `near` or more, but less than twice as many, rows or columns from one.
+    /// The cells that are `near` or more, but less than twice as many, rows or columns from one: few ranges, however few
+    /// columns there are, as whole rows follow one another.
     fn frame(self, [i, k]: [i64; 2], near: i64) -> impl Iterator<Item = Range<usize>> {
         let [across, up] = self.counts;
         let far = near.saturating_mul(2).saturating_sub(1).max(0);
-        let (left, right) = (i.saturating_sub(far).max(0), i.saturating_add(far).saturating_add(1));
-        let right = right.min(across);
+        let around = |at: i64, by: i64, most: i64| {
+            (at.saturating_sub(by).max(0), at.saturating_add(by).saturating_add(1).min(most))
+        };
+        let ((left, right), (bottom, top)) = (around(i, far, across), around(k, far, up));
         let (inner, end) = (i.saturating_sub(near).saturating_add(1), i.saturating_add(near));
-        let rows = k.saturating_sub(far).max(0)..k.saturating_add(far).saturating_add(1).min(up);
-        rows.flat_map(move |row| {
-            let whole = row.abs_diff(k) >= near.unsigned_abs();
-            let parts = if whole { [(left, right), (0, 0)] } else { [(left, inner), (end, right)] };
-            parts.map(|(from, to)| self.list([from, row])..self.list([to, row]))
-        })
+        // Of these rows only what is left of `inner` and right of `end`.
+        let lower = k.saturating_sub(near).saturating_add(1).max(bottom);
+        let upper = k.saturating_add(near).min(top).max(lower);
+        let between = if left < inner || end < right { lower..upper } else { 0..0 };
+        let sides = between.flat_map(move |row| {
+            let parts = [(left, inner), (end, right)].into_iter().filter(|(from, to)| from < to);
+            parts.map(move |(from, to)| self.list([from, row])..self.list([to, row]))
+        });
+        let is_whole = left == 0 && right == across;
+        let rows = move |from: i64, to: i64| {
+            let pieces = if is_whole { i64::from(from < to) } else { to.saturating_sub(from) };
+            (0..pieces).map(move |piece| {
+                let first = from.saturating_add(piece);
+                let last = if is_whole { to.saturating_sub(1) } else { first };
+                self.list([left, first])..self.list([right, last])
+            })
+        };
+        rows(bottom, lower).chain(sides).chain(rows(upper, top))
     }
 }
 
