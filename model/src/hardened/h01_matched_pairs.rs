@@ -58,11 +58,14 @@ pub fn mean_failure(scene: &Scene, gated: &[(&Track, &Seen)], costs: Costs) -> O
         let pairs = row.into_iter().map(|cost| cost.filter(close));
         pairs.chain(vec![leaving; left_out]).collect()
     };
+    let detections = costs.first().map_or(0, Vec::len);
     let costs: Costs = costs.into_iter().zip(gated).map(row).collect();
     let tracks = gated.len();
     match costs_less(&costs, tracks, &(count(tracks) * &theta_tr)) {
         Ok(found) => {
-            let mean = found.cost / count(tracks);
+            let left = found.pairs.iter().filter(|(_, column)| *column >= detections).count();
+            // The witness has what was compared (SCHED-19): the mean of those that remain.
+            let mean = (found.cost - count(left) * &theta_tr) / count(tracks - left);
             Witness::unless(found.less, Rule::MeanCost, &mean, &scene.parameters.theta_tr)
         }
         Err(most) => Some(no_assignment(gated, &costs, most)),

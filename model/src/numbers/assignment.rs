@@ -43,8 +43,8 @@ pub fn mean_less(
     theta: &Real,
 ) -> Result<Comparison, usize> {
     let k = count(pairs);
-    let Comparison { less, cost } = costs_less(costs, pairs, &(&k * reads.lowered(theta)))?;
-    Ok(Comparison { less, cost: cost / k })
+    let found = costs_less(costs, pairs, &(&k * reads.lowered(theta)))?;
+    Ok(Comparison { cost: found.cost / k, ..found })
 }
 
 /// A number of things.
@@ -101,15 +101,15 @@ pub fn costs_less(costs: &Costs, pairs: usize, bound: &Real) -> Result<Compariso
         .map(|row| row.iter().map(|cost| cost.as_ref().map(Real::near)).collect())
         .collect();
     let found = Search::shortest_paths(&doubles, pairs)?;
-    let cost = found.cost_in(costs);
+    let (cost, of) = (found.cost_in(costs), found.pairs());
     if cost < *bound {
-        return Ok(Comparison { less: true, cost });
+        return Ok(Comparison { less: true, cost, pairs: of });
     }
     if found.dual(costs).lower_bound(costs, pairs).is_some_and(|least| least >= *bound) {
-        return Ok(Comparison { less: false, cost });
+        return Ok(Comparison { less: false, cost, pairs: of });
     }
-    let cost = least_cost(costs, pairs)?.cost;
-    Ok(Comparison { less: cost < *bound, cost })
+    let Assignment { cost, pairs, .. } = least_cost(costs, pairs)?;
+    Ok(Comparison { less: cost < *bound, cost, pairs })
 }
 
 /// Answer of `costs_less`.
@@ -119,6 +119,8 @@ pub struct Comparison {
     pub less: bool,
     /// Cost of the assignment found: the least, up to what doubles can tell.
     pub cost: Real,
+    /// Its rows and columns.
+    pub pairs: Vec<(usize, usize)>,
 }
 
 /// The cheapest one-to-one assignment of exactly `pairs` rows and columns, by shortest augmenting

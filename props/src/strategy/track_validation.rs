@@ -23,7 +23,9 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (2, _) | (3 | 4, Profile::PAPER) => threshold_to_mean(draw, frame, &mut cycle),
         (3, _) => pair_limit(draw, frame, &mut cycle),
         (5, _) | (6, Profile::PAPER) => radius(draw, frame, &mut cycle),
-        (4 | 6, _) if draw.one_in(2) => missed(draw, frame, &mut cycle),
+        (4 | 6, rules) if rules.has(HardenedRule::H01) && draw.one_in(2) => {
+            missed(draw, frame, &mut cycle);
+        }
         (4 | 6, _) => left_out(draw, frame, &mut cycle),
         (_, _) => anything(draw, frame, &mut cycle),
     }
