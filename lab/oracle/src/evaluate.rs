@@ -98,25 +98,11 @@ fn ended(
 ) -> Ended {
     let checks = select.checks.into_inner().unwrap_or_else(PoisonError::into_inner);
     let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
-    write_table(&results.table, out)?;
+    tables::write(&results.table, out)?;
     tell(&checks, out)?;
     let code = code(&results, &checks);
     say(&leaves(results, &checks, drawn, folder).write(folder)?, out)?;
     Ok(code)
-}
-
-/// The table, and under it what the names of its checks mean.
-fn write_table(table: &Rows, out: &mut impl Write) -> io::Result<()> {
-    let text = table.text(None);
-    write!(out, "{text}")?;
-    if text.contains(Variant::Sofof.name()) {
-        writeln!(
-            out,
-            "sofof checks the age alone of what comes back, paper the five stages as published, hardened these and the \
-             rules that close their gaps"
-        )?;
-    }
-    Ok(())
 }
 
 /// Says what the model was asked, and names where it disagrees.

@@ -152,7 +152,7 @@ pub(super) fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
 /// Writes the table, the collisions and the files. The exit code.
 fn ended(town: &Town, made: &Falsified, folder: Option<&Path>, out: &mut impl Write) -> Ended {
     let files = leaves(town, made, folder.is_some())?.write(folder)?;
-    super::write_table(&tables::falsified(made), out)?;
+    tables::write(&tables::falsified(made), out)?;
     writeln!(
         out,
         "{} runs in {} rounds, {} collided, {} of them at random; {} runs to shrink {} collisions",

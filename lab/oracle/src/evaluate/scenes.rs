@@ -67,7 +67,7 @@ pub struct ScenesArguments {
 /// Searches, writes the table to `out`, and files. The exit code.
 pub fn run(arguments: &ScenesArguments, out: &mut impl Write) -> Ended {
     let (made, names) = search(arguments)?;
-    super::write_table(&tables::scenes(&made), out)?;
+    tables::write(&tables::scenes(&made), out)?;
     say(&names, out)?;
     let is_hardened = made.options.profile == Variant::Hardened;
     Ok(if is_hardened && made.failures().next().is_some() { FAILED } else { 0 })

@@ -1,5 +1,7 @@
 //! The tables of the experiments, the paper's values beside ours.
 
+use std::io::{self, Write};
+
 use mufasa_sim::attack::Kind;
 use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
@@ -18,6 +20,20 @@ use mufasa_sim::experiment::watch::By;
 use mufasa_sim::experiment::{falsify, scenes};
 
 use crate::rows::{Column, Rows, number, text};
+
+/// The table, and under it what the names of its checks mean.
+pub fn write(table: &Rows, out: &mut impl Write) -> io::Result<()> {
+    let text = table.text(None);
+    write!(out, "{text}")?;
+    if text.contains(Variant::Sofof.name()) {
+        writeln!(
+            out,
+            "sofof checks the age alone of what comes back, paper the five stages as published, hardened these and the \
+             rules that close their gaps"
+        )?;
+    }
+    Ok(())
+}
 
 /// The experiments, with the columns of their tables.
 pub const EXPERIMENTS: [(Experiment, &[Column<Row>]); 7] = [
