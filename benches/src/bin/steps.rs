@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [turned_crowd, turned_in_row] = [&crowd, &in_row].map(|items| turned_tracks(items));
     let [turned_line, turned_row] = [&line, &row].map(|items| turned(items));
     let turned_rows = [300, 500, 800].map(|ms| earlier(&turned_row, ms));
-    // Three times as many tracks as detections: the tracks are the columns.
+    // Three times as many tracks as detections, all of them seen before.
     let upright: Vec<_> = places(size, 1.0).zip(0..).map(|(y, id)| track(id, 0.0, y)).collect();
     let upright_seen: Vec<_> = upright.iter().copied().map(seen_as).collect();
     let far = std::iter::once(detection(0.0, 2.0 * f64::from(size)));

@@ -134,18 +134,21 @@ fn left_out(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     history::back(draw, cycle);
 }
 
-/// Backed tracks, of which as many are missed as may be left out, or one more; those that are seen are off by so much
-/// that the mean is near `theta_tr`, with those that are left out, with distance 0, or without them.
+/// Backed tracks, of which as many are missed as may be left out: that number decides, or the mean of those that are
+/// seen is near `theta_tr`, or it would be with those that are left out, with distance 0.
 fn missed(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    let budget = draw.pick(&[1, 2, 0]);
-    cycle.parameters.miss_budget = budget;
-    let spare = usize::try_from(budget).unwrap_or(0);
-    let (seen, missed) = (draw.between(1, 2), spare + draw.pick(&[0, 0, 1]));
+    let spare = draw.pick(&[1, 2, 0]);
+    cycle.parameters.miss_budget = i64::try_from(spare).unwrap_or(0);
+    let seen = draw.between(1, 2);
+    let mean = draw.near(cycle.parameters.theta_tr);
+    let (more, error) = match draw.below(6) {
+        0 => (draw.below(2), 0.0),
+        1 => (0, mean * (seen + spare) as f64 / seen as f64),
+        _ => (0, mean),
+    };
+    let missed = spare + more;
     let places: Vec<Place> =
         (0..seen + missed).map(|index| (12.0 * index as f64 - 20.0, 6.0)).collect();
-    let counted = draw.pick(&[0, missed.min(spare)]);
-    let mean = draw.near(cycle.parameters.theta_tr);
-    let error = draw.pick(&[0.0, 1.0]) * mean * (seen + counted) as f64 / seen as f64;
     let at = |place: &Place| (place.0, place.1 + error);
     let detections: Vec<Place> = places[..seen].iter().map(at).chain([(95.0, 0.0)]).collect();
     fill(draw, frame, cycle, &places, &detections);

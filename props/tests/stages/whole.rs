@@ -38,9 +38,8 @@ fn any_set_of_rules() {
 
 fn study(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = whole::cycle(draw, profile);
-    // With fewer rules fewer cycles are near a threshold of what is left: they are aimed at those of all rules.
     for rule in HardenedRule::ALL {
-        if draw.one_in(9) {
+        if draw.one_in(6) {
             cycle.profile = cycle.profile.without(rule);
         }
     }
