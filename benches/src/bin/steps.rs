@@ -17,7 +17,7 @@ use mufasa_benches::worst::{
 };
 
 /// What is run: a stage, or the checks of the input.
-const INPUTS: [(&str, Option<Stage>); 15] = [
+const INPUTS: [(&str, Option<Stage>); 16] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -25,6 +25,7 @@ const INPUTS: [(&str, Option<Stage>); 15] = [
     ("turned", Some(Stage::I)),
     ("turned-history", Some(Stage::I)),
     ("surplus", Some(Stage::I)),
+    ("one-place", Some(Stage::I)),
     ("off-route", Some(Stage::Ii)),
     ("on-route", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
@@ -90,6 +91,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let far = std::iter::once(detection(0.0, 2.0 * f64::from(size)));
     let few: Vec<_> = places(size / 3, 1e-3).map(|y| detection(0.5, y)).chain(far).collect();
     let all = [300, 500, 800].map(|ms| earlier(&upright_seen, ms));
+    // Many tracks at one place, about as near to each of the few detections.
+    let alike = numbered(&|id| track(id, 0.0, 0.0));
+    let beside_them: Vec<_> = places(size / 3, 3.6e-3).map(|y| detection(0.04, y)).collect();
     // Beside the CAV's way, as near as plain doubles tell apart, and still or from a metre farther aside.
     let touching = 0.5 * (base.ego.width + 1.8) + 1e-3;
     let beside: Vec<_> = (0..size).map(|_| detection(9.0, touching)).collect();
@@ -131,6 +135,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "turned-history" => {
             Cycle { detection_history: &turned_rows, ..lists(&turned_in_row, &turned_row) }
         }
+        "one-place" => lists(&alike, &beside_them),
         "surplus" => Cycle { detection_history: &all, ..lists(&upright, &few) },
         "off-route" => Cycle { parameters: wide, ..plan(&off) },
         "on-route" => plan(&on),

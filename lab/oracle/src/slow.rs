@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::TypedValueParser;
+use mufasa::cycle::steps::{Counts, most_steps};
 use mufasa::input::profile::Profile;
+use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 use mufasa_model::input::cycle::Cycle;
@@ -169,6 +171,25 @@ fn name_of(profile: Profile) -> &'static str {
 }
 
 impl Slowest {
+    /// That it may take (`spec/4-arithmetic.md#steps`).
+    fn steps(&self) -> u64 {
+        bridge::with_impl(&self.cycle, |cycle, _| {
+            let most = most_steps(&Counts::of(cycle), &cycle.parameters);
+            match self.what {
+                What::Cycle => most.total(),
+                What::Stage(Stage::Iv) if cycle.profile != Profile::PAPER => {
+                    most.stages[3] + most.fail_safe
+                }
+                What::Stage(stage) => most.stages[stage as usize],
+            }
+        })
+    }
+
+    fn instructions_a_step(&self) -> String {
+        let tenths = 10 * self.instructions / self.steps().max(1);
+        format!("{}.{}", tenths / 10, tenths % 10)
+    }
+
     fn name(&self) -> String {
         format!("{} {}", names::profile(self.cycle.profile), self.what.name())
     }
@@ -191,6 +212,8 @@ fn table(found: &[Slowest]) -> Rows {
             text("tracks, points, detections, earlier lists", Slowest::sizes),
             number("instructions of W1", |it| it.start.to_string()),
             number("of the slowest", |it| it.instructions.to_string()),
+            number("steps at most", |it| it.steps().to_string()),
+            number("instructions a step", |it| it.instructions_a_step()),
             number("found in round", |it| it.round.to_string()),
         ],
     )

@@ -48,6 +48,19 @@ pub(crate) fn assign(
     (0..count).filter(|&start| augment(rows, columns, start, costs).is_some()).count()
 }
 
+/// A search that has settled this share of the columns looks at all of them.
+const DEEP: usize = 8;
+
+/// What the edges of a row have in common.
+struct Edges<P> {
+    /// How far away they begin: the length of the path to the row, less its potential.
+    base: i64,
+    /// That of the path.
+    length: i64,
+    from: usize,
+    row: P,
+}
+
 /// A column without a row, and the shortest path to it that is known.
 struct Sink {
     distance: i64,
@@ -111,38 +124,54 @@ impl Paths {
     /// Extends the known paths by the edges of row `from`, which is `length` away, as long as they
     /// may lead to a path shorter than that to the sink: potentials of columns are at most 0, so
     /// that no path is shorter than its last edge with what is before it.
-    fn extend(
+    fn extend<C: Costs>(
         &mut self,
         rows: &[Row],
         columns: &mut [Column],
         from: usize,
         length: i64,
-        costs: &impl Costs,
+        costs: &C,
     ) {
         let (Some(row), Some(potential)) =
             (costs.place(rows, from), rows.get(from).map(|row| row.potential))
         else {
             return;
         };
-        let base = length.saturating_sub(potential);
+        let edges = Edges { base: length.saturating_sub(potential), length, from, row };
+        // Where so much has been settled already, it takes less to meet all columns than those near first.
+        if self.settled.saturating_mul(DEEP) >= columns.len() {
+            (0..columns.len()).for_each(|index| self.meet(rows, columns, index, &edges, costs));
+            return;
+        }
         for (bound, lists) in costs.lists(row) {
-            if base.saturating_add(bound) >= self.limit() {
+            if edges.base.saturating_add(bound) >= self.limit() {
                 return;
             }
             for list in lists {
                 let mut next = columns.get(list).map_or(NONE, |column| column.near.head);
-                while let Some(column) = columns.get_mut(usize::from(next)) {
+                while let Some(column) = columns.get(usize::from(next)) {
                     let index = usize::from(core::mem::replace(&mut next, column.near.next));
-                    // Paths that are that short are final.
-                    if column.distance <= length {
-                        continue;
-                    }
-                    if let Some(cost) = costs.cost(rows, row, index) {
-                        let distance = base.saturating_add(cost).saturating_sub(column.potential);
-                        self.reach(columns, index, distance, from);
-                    }
+                    self.meet(rows, columns, index, &edges, costs);
                 }
             }
+        }
+    }
+
+    /// The edge to one column, unless paths that are that short are final.
+    fn meet<C: Costs>(
+        &mut self,
+        rows: &[Row],
+        columns: &mut [Column],
+        index: usize,
+        edges: &Edges<C::Place>,
+        costs: &C,
+    ) {
+        let Some(column) = columns.get(index).filter(|it| it.distance > edges.length) else {
+            return;
+        };
+        if let Some(cost) = costs.cost(rows, edges.row, index) {
+            let distance = edges.base.saturating_add(cost).saturating_sub(column.potential);
+            self.reach(columns, index, distance, edges.from);
         }
     }
 
