@@ -35,7 +35,7 @@ impl Rectangle {
     }
 
     /// The greatest scalar product of the axis with a point of it seen from its centre.
-    fn half_extent(&self, axis: &Vector) -> Real {
+    pub fn half_extent(&self, axis: &Vector) -> Real {
         let Frame { direction, .. } = &self.frame;
         &self.half_length * direction.dot(axis).abs()
             + &self.half_width * direction.cross(axis).abs()

@@ -2,7 +2,7 @@
 //! comparisons is an error.
 
 use mufasa_model::cycle::{check, readings};
-use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track};
 use mufasa_model::report::{InvalidInput, Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
@@ -52,4 +52,26 @@ fn only_what_a_stage_is_about_to_do_counts() {
     let mut near = crowded(413);
     near.lead = lead(0.0, 0.0);
     assert_eq!(rule(&near, Stage::Iv), Some(Rule::Gap));
+}
+
+/// H-14.51, H-14.52: at the default limit conformance asks for the answer in dense traffic: twelve vehicles around
+/// the CAV, each with a track and seen four times, take more than a twentieth of it and less than all.
+#[test]
+fn the_default_limit_bears_dense_traffic() {
+    let places = [20.0, 34.0, -14.0, -28.0].map(|x| (x, 0.0));
+    let beside = [-24.0, -8.0, 8.0, 24.0].iter().flat_map(|x| [(*x, 3.5), (x + 4.0, -3.5)]);
+    let all: Vec<(f64, f64)> = places.into_iter().chain(beside).collect();
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
+    let moving = |(id, (x, y)): (i64, &(f64, f64))| Track { vx: 10.0, ..track(id, *x, *y) };
+    cycle.tracks = tracks((0..).zip(&all).map(moving).collect());
+    cycle.detections = detections(all.iter().map(|(x, y)| detection(*x, *y)).collect());
+    cycle.detection_history =
+        history(&all.iter().map(|(x, y)| [*x, *y, 10.0, 0.0]).collect::<Vec<_>>());
+    let strict = |cycle: &Cycle| check(cycle, Reading::Strict).expect("valid").stages[3].clone();
+    assert!(!matches!(strict(&cycle), Outcome::Failed(_)));
+    let limit = cycle.parameters.work_limit;
+    cycle.parameters.work_limit = 0;
+    let Outcome::Failed(witness) = strict(&cycle) else { panic!("there is work") };
+    let work: i64 = witness.compared[0].to_string().parse().expect("whole steps");
+    assert!(work < limit && 20 * work > limit, "{work}");
 }

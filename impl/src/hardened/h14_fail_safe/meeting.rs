@@ -103,7 +103,8 @@ impl<'c, 'a> Meeting<'c, 'a> {
         [range(x, across), range(y, up)]
     }
 
-    /// Whether boxes leave open whether the object meets the CAV.
+    /// Whether boxes leave open whether the object meets the CAV: surely not when it does not come near the path
+    /// (H-14.55).
     pub(super) fn may_be_met(&self, motion: &Motion) -> bool {
         !self.covers.miss(&self.plainly(motion), &self.clock)
     }

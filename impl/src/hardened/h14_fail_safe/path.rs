@@ -39,7 +39,8 @@ impl<'c, 'a> Nodes<'c, 'a> {
         Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
     }
 
-    /// The pieces in plain doubles, the last one cut off not before `s_stop`.
+    /// The pieces in plain doubles, the last one cut off not before `s_stop`. None begins more than 1 cm beyond
+    /// it (H-14.56).
     pub(crate) fn lines(self) -> impl Iterator<Item = Line> + Clone {
         let ego = &self.cycle.ego;
         let s_stop = Times::<f64>::new(self.cycle).s_stop * (1.0 + 1e-9) + 1e-3;

@@ -44,7 +44,7 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
 }
 
 /// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by the widening.
-fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
+pub fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
     let cav = cav(scene, pose);
     let half_width = &cav.half_width + widening(scene, trajectory);
     Rectangle { half_width, ..cav }
@@ -225,7 +225,7 @@ fn t_h(scene: &Scene, motion: &Motion, q: &Vector, d: &Real, behind: bool) -> Re
 }
 
 /// H(w) = max(T, tau + t_yield + abs(w) / (2 a_yield)), s: who comes later can still stop.
-fn h(scene: &Scene, motion: &Motion) -> Real {
+pub fn h(scene: &Scene, motion: &Motion) -> Real {
     let p = &scene.parameters;
     let braking = &motion.speed / (Real::from_integer(2) * &p.a_yield);
     Driving::of(scene).t_stop().max(&p.tau + &p.t_yield + braking)

@@ -181,6 +181,23 @@ fn last(o: &Step, q: &Step, s_stop: &Real) -> Step {
     Step { pose, way: s_stop.clone(), heading: q.heading.clone() }
 }
 
+/// Both ends of each piece that begins at most 1 cm beyond s_stop, with its heading; behind the last node, it and
+/// the point at s_stop + 1 cm.
+pub fn ends(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
+    let most = Driving::of(scene).s_stop() + integer(1) / integer(100);
+    let (pieces, node, way) = pieces(scene, trajectory);
+    let behind = (way <= most).then(|| Frame {
+        origin: node.point(&(&most - &way), &Real::zero()),
+        direction: node.direction.clone(),
+    });
+    let in_reach = pieces.into_iter().take_while(|piece| piece.way <= most);
+    let of_pieces = in_reach.flat_map(|Piece { a, b, .. }| {
+        let b = Frame { origin: b.origin, direction: a.direction.clone() };
+        [a, b]
+    });
+    of_pieces.chain(behind.into_iter().flat_map(|end| [node.clone(), end])).collect()
+}
+
 /// How many places there are, without going through them.
 pub fn count(scene: &Scene, trajectory: &[Point]) -> i128 {
     let end = scene.reads.raised(&Driving::of(scene).s_stop());
