@@ -230,7 +230,7 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
     }
 }
 
-/// The steps of H-14 that count for `work_limit` (H-14.51), of as many motions as there may be.
+/// The steps of H-14 that count for `work_limit`, of as many motions as there may be.
 fn fail_safe_work(counts: &Counts) -> u64 {
     let &Counts { tracks, points, detections, lists, places, cross_sections, .. } = counts;
     let [tracks, d, lists, cross_sections] =

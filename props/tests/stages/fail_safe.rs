@@ -1,11 +1,13 @@
 //! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`).
 
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::report::{Reading, Rule};
-use mufasa_props::differential::{agree, hold, near_threshold, same_witness};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_props::differential::{agree, conforming, hold, near_threshold, same_witness};
 use mufasa_props::strategy::draw::Draw;
-use mufasa_props::strategy::{fail_safe, seen};
+use mufasa_props::strategy::track_validation::{detection, track};
+use mufasa_props::strategy::{base, fail_safe, seen};
 
 #[test]
 fn hardened() {
@@ -56,4 +58,33 @@ fn too_much(cycle: &Cycle) -> Option<i64> {
     let report = check(cycle, Reading::Strict).expect("valid");
     let witness = report.witness().filter(|witness| witness.rule == Rule::WorkLimit)?;
     witness.compared[0].to_string().parse().ok()
+}
+
+/// H-14.51: twenty detections without a track may come from the own origin of a confirmed track, or not. An implementation
+/// asks each of them twice, and looks through a list of 1500 items each time.
+#[test]
+fn an_origin_that_many_may_come_from() {
+    let draw = &mut Draw::new(&[]);
+    let frame = base::frame(draw);
+    let mut cycle = base::cycle(draw, frame, Profile::HARDENED, Configuration::PlanRemote);
+    let list = |ms: i64, places: Vec<(f64, f64)>| DetectionList {
+        stamp_ns: cycle.now_ns - ms * 1_000_000,
+        items: places.into_iter().map(|place| detection(frame, place)).collect(),
+    };
+    let behind = (0..20).map(|k| (-10.0 + 0.1 * f64::from(k), 0.0));
+    let seen = list(0, [(-30.0, 0.0)].into_iter().chain(behind).collect());
+    let elsewhere = std::iter::repeat_n((-100.0, 50.0), 1499);
+    let of_300_ms = list(300, [(-36.0, 0.0)].into_iter().chain(elsewhere).collect());
+    cycle.detection_history = vec![of_300_ms, list(500, vec![(-40.0, 0.0)])];
+    let (vx, vy) = frame.turn((20.0, 0.0));
+    let items = vec![Track { vx, vy, ..track(frame, (-30.0, 0.0), 1) }];
+    cycle.tracks = Some(TrackList { stamp_ns: cycle.now_ns, items });
+    cycle.detections = Some(seen);
+    cycle.parameters.work_limit = 0;
+    while let Some(steps) = too_much(&cycle) {
+        cycle.parameters.work_limit = steps;
+    }
+    let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
+    assert_eq!(strict.as_ref().expect("valid").failed_stage, None);
+    assert_eq!(conforming(&cycle, &exact, &strict), Ok(()));
 }

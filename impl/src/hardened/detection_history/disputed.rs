@@ -4,11 +4,9 @@
 //! is as near to the past as the nearest item, but for `CLOSE`, is at the same place, or stage i has
 //! failed (`ambiguous`).
 //!
-//! What it costs, with D detections, U items of all usable lists and R of the longest, of the work
-//! D R U of H-14: each confirmed track is asked about once at most, and compares its origin with every
-//! unexplained detection, and of each of these one place in every other list with the items there, at
-//! most U. Confirmed tracks have two own origins at least, and no two tracks have the same one, so that
-//! there are at most U / 2 of them, which is at most 2 R: together 2 R D (U + 1) steps.
+//! What it costs counts as pairs (H-14.51): each confirmed track is asked about once at most, and compares its own
+//! origin, which no other track has, with each unexplained detection near it (H-14.57), and of each of these one
+//! place in every other list with the items there.
 
 use crate::hardened::detection_history::explained::Explained;
 use crate::hardened::detection_history::lists::{Lists, Past};

@@ -172,7 +172,7 @@ impl Motions<'_, '_, '_> {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
         let (stood, rate) = (self.lists.stands_within(), 1.0 / list.age);
-        // SEEN-15
+        // SEEN-15; H-14.57
         let farthest = larger(self.lists.v_object() * list.age + CLOSE, stood);
         let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
         if is_empty(area) {

@@ -50,7 +50,7 @@ impl<'c, 'a> Nodes<'c, 'a> {
             let (from, heading, way) = next.take()?;
             let Some(node) = nodes.next() else {
                 let left = larger(s_stop - way, 0.0);
-                let along = heading.map(|part| part * left * (1.0 + 1e-6));
+                let along = heading.map(|part| part * left);
                 let to = [from[0] + along[0], from[1] + along[1]];
                 return Some(Line { from, to, heading, way, advance: left });
             };

@@ -4,41 +4,51 @@
 
 use std::cell::LazyCell;
 
-use crate::hardened::detection_history::{confirmed, is_within, nearest_to_reference, usable};
+use crate::hardened::detection_history::{Usable, confirmed, nearest_to_reference, usable};
 use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
 use crate::hardened::h14_fail_safe::motions::{Motion, all_motions};
 use crate::hardened::h14_fail_safe::path;
-use crate::input::scene::{Point, Scene};
+use crate::hardened::h14_fail_safe::times::Driving;
+use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
 
-/// 240 + U for each current detection and item of a usable list that are at most v_object dt + theta_track_max
-/// apart, where the list is the reference list or the detection is unexplained; U are the items of all usable
-/// lists.
+/// U being the items of all usable lists: 240 + U for each current detection and each item of the reference list
+/// that are near each other, and 64 + U for each unexplained one and each item of a usable list. Near is at most
+/// v_object dt + theta_track_max + 1 cm.
 pub fn of_pairs(scene: &Scene) -> i128 {
-    let lists = usable(scene);
-    let each = 240 + lists.iter().map(|list| list.items.len() as i128).sum::<i128>();
+    let (lists, confirmed) = (usable(scene), confirmed(scene));
+    let u = lists.iter().map(|list| list.items.len() as i128).sum::<i128>();
     let reference = nearest_to_reference(lists.iter().enumerate()).map(|(k, _)| k);
-    let confirmed = confirmed(scene);
+    let near = |detection: &Object, list: &Usable| {
+        let (at, p) = (&detection.frame.origin, &scene.parameters);
+        let most = &p.v_object * &list.dt + &p.theta_track_max + one() / Real::from_integer(100);
+        let is_near = |item: &&Object| {
+            let place = &item.frame.origin;
+            !at.is_far(place, &most) && at.distance(place) <= most
+        };
+        list.items.iter().filter(is_near).count() as i128
+    };
     let detections = scene.detections.iter().flat_map(|list| list.items.iter().enumerate());
     let pairs = detections.flat_map(|(d, detection)| {
         let is_explained = confirmed.iter().any(|(_, seen)| seen.detection == Some(d));
-        let is_asked = move |(k, _): &(usize, _)| Some(*k) == reference || !is_explained;
-        lists.iter().enumerate().filter(is_asked).map(move |(_, list)| {
-            let p = &scene.parameters;
-            let (at, most) = (&detection.frame.origin, &p.v_object * &list.dt + &p.theta_track_max);
-            list.items.iter().filter(|item| is_within(scene, at, item, &most)).count() as i128
+        lists.iter().enumerate().map(move |(k, list)| {
+            let of_reference = if Some(k) == reference { 240 + u } else { 0 };
+            let each = of_reference + if is_explained { 0 } else { 64 + u };
+            if each > 0 { each * near(detection, list) } else { 0 }
         })
     });
-    each * pairs.sum::<i128>()
+    pairs.sum()
 }
 
-/// 320 for each motion; where it comes near the path, 960 more and 400 for each place; where it keeps beside as
-/// well, 320 more, 560 for each place and 32 for each cross section.
+/// K being the places, E those whose way is above s_stop - delta, and C the cross sections: 320 for each motion;
+/// where it comes near the path, 640 + 400 (K + E) more; where it keeps beside as well, 320 + 560 K + 400 E + 32 C.
 pub fn of_motions(scene: &Scene, trajectory: &[Point]) -> i128 {
-    let places = path::count(scene, trajectory);
-    let near = 960 + 400 * places;
-    let beside = 320 + 560 * places + 32 * scene.route.cross_sections.len() as i128;
+    let last = Driving::of(scene).s_stop() - &scene.reads.delta;
+    let ways: Vec<Real> = path::places(scene, trajectory).map(|place| place.way).collect();
+    let k = ways.len() as i128;
+    let e = ways.iter().filter(|way| **way > last).count() as i128;
+    let c = scene.route.cross_sections.len() as i128;
     let ends = path::ends(scene, trajectory);
     let path: Vec<Rectangle> = ends.iter().map(|pose| wider(scene, trajectory, pose)).collect();
     let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
@@ -47,13 +57,18 @@ pub fn of_motions(scene: &Scene, trajectory: &[Point]) -> i128 {
             return 320;
         }
         let keeps_beside = beside_route.keeps_beside(scene, motion, is_behind(scene, motion));
-        320 + near + if keeps_beside { beside } else { 0 }
+        let beside = if keeps_beside { 320 + 560 * k + 400 * e + 32 * c } else { 0 };
+        320 + 640 + 400 * (k + e) + beside
     };
     all_motions(scene).iter().map(of_motion).sum()
 }
 
-/// Neither along h nor across it is all that the object sweeps over until H(w) more than 1/10 m beyond the
-/// rectangles of the path.
+fn one() -> Real {
+    Real::from_integer(1)
+}
+
+/// Neither along h nor across it is all that the object sweeps over until H(w) on one side of all rectangles of
+/// the path and more than 1/10 m from them.
 fn comes_near(scene: &Scene, path: &[Rectangle], motion: &Motion) -> bool {
     let h_ego = &scene.ego.heading;
     let least = motion.r_b(&scene.parameters.a_b, &motion.age);
@@ -61,7 +76,7 @@ fn comes_near(scene: &Scene, path: &[Rectangle], motion: &Motion) -> bool {
     let object = motion.object.rectangle();
     let moved = [least, most].map(|r| &object.frame.origin + &motion.moved_by(&r));
     [h_ego, &h_ego.left()].into_iter().all(|axis| {
-        let reach = object.half_extent(axis) + Real::from_integer(1) / Real::from_integer(10);
+        let reach = object.half_extent(axis) + one() / Real::from_integer(10);
         let at = moved.each_ref().map(|it| it.dot(axis));
         let is_beyond = |greatest: Real| at.iter().all(|it| it - &reach > greatest);
         let is_before = |least: Real| at.iter().all(|it| it + &reach < least);
