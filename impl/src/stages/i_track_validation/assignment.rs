@@ -49,7 +49,7 @@ pub(crate) fn assign(
 }
 
 /// A search that has settled this share of the columns looks at all of them.
-const DEEP: usize = 8;
+const DEEP: usize = 64;
 
 /// What the edges of a row have in common.
 struct Edges<P> {
