@@ -213,7 +213,7 @@ fn table(found: &[Slowest]) -> Rows {
             number("instructions of W1", |it| it.start.to_string()),
             number("of the slowest", |it| it.instructions.to_string()),
             number("steps at most", |it| it.steps().to_string()),
-            number("instructions a step", |it| it.instructions_a_step()),
+            number("instructions a step", Slowest::instructions_a_step),
             number("found in round", |it| it.round.to_string()),
         ],
     )
