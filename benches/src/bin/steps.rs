@@ -54,10 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
     let size: u32 = size.parse()?;
-    let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
     let folded = folded(if input.ends_with("route") { 8 * size } else { 4 });
-    let grid = vec![0; 8];
-    let hardened = Cycle { profile: Profile::HARDENED, ..base(&folded, &grid) };
+    let hardened = Cycle { profile: Profile::HARDENED, ..base(&folded, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
     let seen_as = |track: Track| detection(track.x, track.y);
@@ -81,19 +79,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let in_row = places(size, 1e-4).zip(0..).map(|(x, id)| track(id, x + 3e-5, 0.01));
     let in_row: Vec<_> = in_row.collect();
     let rows = [300, 500, 800].map(|ms| earlier(&row, ms));
-    // The same along y.
     let [turned_crowd, turned_in_row] = [&crowd, &in_row].map(|items| turned_tracks(items));
     let [turned_line, turned_row] = [&line, &row].map(|items| turned(items));
     let turned_rows = [300, 500, 800].map(|ms| earlier(&turned_row, ms));
     // Three times as many tracks as detections, all of them seen before.
     let upright: Vec<_> = places(size, 1.0).zip(0..).map(|(y, id)| track(id, 0.0, y)).collect();
     let upright_seen: Vec<_> = upright.iter().copied().map(seen_as).collect();
-    let far = std::iter::once(detection(0.0, 2.0 * f64::from(size)));
-    let few: Vec<_> = places(size / 3, 1e-3).map(|y| detection(0.5, y)).chain(far).collect();
+    let few = places(size / 3, 1e-3).map(|y| detection(0.5, y));
+    let few: Vec<_> = few.chain([detection(0.0, 2.0 * f64::from(size))]).collect();
     let all = [300, 500, 800].map(|ms| earlier(&upright_seen, ms));
-    // Many tracks at one place, about as near to each of the few detections.
-    let alike = numbered(&|id| track(id, 0.0, 0.0));
-    let beside_them: Vec<_> = places(size / 3, 3.6e-3).map(|y| detection(0.04, y)).collect();
+    let (alike, beside_them) = at_one_place(size);
     // Beside the CAV's way, as near as plain doubles tell apart, and still or from a metre farther aside.
     let touching = 0.5 * (base.ego.width + 1.8) + 1e-3;
     let beside: Vec<_> = (0..size).map(|_| detection(9.0, touching)).collect();
@@ -157,6 +152,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     count(&cycle, *stage);
     Ok(())
+}
+
+/// So many multiples of a step, from 0 on.
+fn places(count: u32, step: f64) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| f64::from(i) * step)
+}
+
+/// Many tracks at one place, about as near to each of a third as many detections.
+fn at_one_place(size: u32) -> (Vec<Track>, Vec<Detection>) {
+    let alike = (0..i64::from(size)).map(|id| track(id, 0.0, 0.0)).collect();
+    let beside_them = places(size / 3, 3.6e-3).map(|y| detection(0.04, y)).collect();
+    (alike, beside_them)
 }
 
 fn turned_tracks(items: &[Track]) -> Vec<Track> {
