@@ -3,7 +3,7 @@
 
 use std::cell::LazyCell;
 
-use crate::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
+use crate::hardened::h14_fail_safe::motions::{Motion, Named};
 use crate::hardened::h14_fail_safe::path::{Place, places};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
 use crate::input::scene::{Object, Point, Scene};
@@ -16,15 +16,19 @@ use crate::stages::llcc::cav;
 
 /// The first place at which a motion that is examined sweeps over the CAV in its window, and of these
 /// motions the first.
-pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
-    let examined: Vec<(Motion, bool, Real)> = (all_motions(scene).into_iter())
+pub fn failure(
+    scene: &Scene,
+    trajectory: &[Point],
+    motions: &[Motion],
+    beside_route: &LazyCell<BesideRoute, impl FnOnce() -> BesideRoute>,
+) -> Option<Witness> {
+    let examined: Vec<(&Motion, bool, Real)> = (motions.iter())
         .filter_map(|motion| {
-            let behind = is_behind(scene, &motion);
-            let comes_across = comes_across(scene, &motion, behind);
-            let is_examined = !follows(scene, &motion, comes_across, behind)
-                && !beside_route.keeps_beside(scene, &motion, behind);
-            let margin = margin(scene, &motion);
+            let behind = is_behind(scene, motion);
+            let comes_across = comes_across(scene, motion, behind);
+            let is_examined = !follows(scene, motion, comes_across, behind)
+                && !beside_route.keeps_beside(scene, motion, behind);
+            let margin = margin(scene, motion);
             is_examined.then_some((motion, comes_across, margin))
         })
         .collect();

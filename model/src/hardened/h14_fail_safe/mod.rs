@@ -9,7 +9,11 @@ pub mod reach;
 pub mod times;
 pub mod work;
 
+use std::cell::LazyCell;
+
 use crate::hardened::detection_history::{ambiguous_failure, usable};
+use crate::hardened::h14_fail_safe::meeting::BesideRoute;
+use crate::hardened::h14_fail_safe::motions::all_motions;
 use crate::input::scene::{Point, Scene};
 use crate::report::{Stage, Witness};
 use crate::services::configuration::Configuration;
@@ -17,9 +21,12 @@ use crate::stages::i_track_validation::over_work_limit;
 
 /// Why the rule fails; `None` passes, as where the current tracks and the current detections hold no object.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let motions = LazyCell::new(|| all_motions(scene));
+    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
+    let of_motions = || work::of_motions(scene, trajectory, &motions, &beside_route);
     too_close_to_call(scene)
-        .or_else(|| too_much_work(scene, trajectory))
-        .or_else(|| meeting::failure(scene, trajectory))
+        .or_else(|| too_much_work(scene, of_motions))
+        .or_else(|| meeting::failure(scene, trajectory, &motions, &beside_route))
 }
 
 /// Where stage i, which asks it elsewhere, is not scheduled.
@@ -46,13 +53,12 @@ pub fn most_moving(scene: &Scene) -> i128 {
 }
 
 /// The work of pairs alone, or with that of motions, which are not looked for where pairs are too many.
-fn too_much_work(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+fn too_much_work(scene: &Scene, of_motions: impl FnOnce() -> i128) -> Option<Witness> {
     if !scene.reads.is_strict() {
         return None;
     }
     let pairs = work::of_pairs(scene);
-    over_work_limit(scene, pairs)
-        .or_else(|| over_work_limit(scene, pairs + work::of_motions(scene, trajectory)))
+    over_work_limit(scene, pairs).or_else(|| over_work_limit(scene, pairs + of_motions()))
 }
 
 /// What the model compares: (places + points) times tracks, plus detections times items of the longest usable list (at least 1)

@@ -6,12 +6,13 @@ use std::cell::LazyCell;
 
 use crate::hardened::detection_history::{Usable, confirmed, nearest_to_reference, usable};
 use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
-use crate::hardened::h14_fail_safe::motions::{Motion, all_motions};
+use crate::hardened::h14_fail_safe::motions::Motion;
 use crate::hardened::h14_fail_safe::path;
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
+use crate::numbers::vector::Vector;
 
 /// U being the items of all usable lists: 240 + U for each current detection and each item of the reference list
 /// that are near each other, and 64 + U for each unexplained one and each item of a usable list. Near is at most
@@ -43,15 +44,18 @@ pub fn of_pairs(scene: &Scene) -> i128 {
 
 /// K being the places, E those whose way is above s_stop - delta, and C the cross sections: 320 for each motion;
 /// where it comes near the path, 640 + 400 (K + E) more; where it keeps beside as well, 320 + 560 K + 400 E + 32 C.
-pub fn of_motions(scene: &Scene, trajectory: &[Point]) -> i128 {
+pub fn of_motions(
+    scene: &Scene,
+    trajectory: &[Point],
+    motions: &[Motion],
+    beside_route: &LazyCell<BesideRoute, impl FnOnce() -> BesideRoute>,
+) -> i128 {
     let last = Driving::of(scene).s_stop() - &scene.reads.delta;
     let ways: Vec<Real> = path::places(scene, trajectory).map(|place| place.way).collect();
     let k = ways.len() as i128;
     let e = ways.iter().filter(|way| **way > last).count() as i128;
     let c = scene.route.cross_sections.len() as i128;
-    let ends = path::ends(scene, trajectory);
-    let path: Vec<Rectangle> = ends.iter().map(|pose| wider(scene, trajectory, pose)).collect();
-    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
+    let path = extents(scene, trajectory);
     let of_motion = |motion: &Motion| {
         if !comes_near(scene, &path, motion) {
             return 320;
@@ -60,29 +64,44 @@ pub fn of_motions(scene: &Scene, trajectory: &[Point]) -> i128 {
         let beside = if keeps_beside { 320 + 560 * k + 400 * e + 32 * c } else { 0 };
         320 + 640 + 400 * (k + e) + beside
     };
-    all_motions(scene).iter().map(of_motion).sum()
+    motions.iter().map(of_motion).sum()
 }
 
 fn one() -> Real {
     Real::from_integer(1)
 }
 
+/// An axis, and from where to where something reaches along it, m.
+struct Extent {
+    axis: Vector,
+    least: Real,
+    greatest: Real,
+}
+
+/// How far the rectangles of the path reach along h and across it.
+fn extents(scene: &Scene, trajectory: &[Point]) -> [Extent; 2] {
+    let ends = path::ends(scene, trajectory);
+    let path: Vec<Rectangle> = ends.iter().map(|pose| wider(scene, trajectory, pose)).collect();
+    let h_ego = &scene.ego.heading;
+    [h_ego.clone(), h_ego.left()].map(|axis| {
+        let sides = path.iter().map(|cav| (cav.frame.origin.dot(&axis), cav.half_extent(&axis)));
+        let least = sides.clone().map(|(at, half)| at - half).min();
+        let greatest = sides.map(|(at, half)| at + half).max();
+        let [least, greatest] = [least, greatest].map(|it| it.expect("a path has two ends"));
+        Extent { axis, least, greatest }
+    })
+}
+
 /// Neither along h nor across it is all that the object sweeps over until H(w) on one side of all rectangles of
 /// the path and more than 1/10 m from them.
-fn comes_near(scene: &Scene, path: &[Rectangle], motion: &Motion) -> bool {
-    let h_ego = &scene.ego.heading;
+fn comes_near(scene: &Scene, path: &[Extent; 2], motion: &Motion) -> bool {
     let least = motion.r_b(&scene.parameters.a_b, &motion.age);
     let most = &motion.speed * (&motion.age + h(scene, motion));
     let object = motion.object.rectangle();
     let moved = [least, most].map(|r| &object.frame.origin + &motion.moved_by(&r));
-    [h_ego, &h_ego.left()].into_iter().all(|axis| {
+    path.iter().all(|Extent { axis, least, greatest }| {
         let reach = object.half_extent(axis) + one() / Real::from_integer(10);
         let at = moved.each_ref().map(|it| it.dot(axis));
-        let is_beyond = |greatest: Real| at.iter().all(|it| it - &reach > greatest);
-        let is_before = |least: Real| at.iter().all(|it| it + &reach < least);
-        let sides = path.iter().map(|cav| (cav.frame.origin.dot(axis), cav.half_extent(axis)));
-        let greatest = sides.clone().map(|(at, half)| at + half).max();
-        let least = sides.map(|(at, half)| at - half).min();
-        !greatest.is_some_and(is_beyond) && !least.is_some_and(is_before)
+        !at.iter().all(|it| it - &reach > *greatest) && !at.iter().all(|it| it + &reach < *least)
     })
 }

@@ -1,10 +1,13 @@
 //! The stop theorem for what stands: the premise is H-14's (`spec/hardened/H-14.md#requirements-failure`).
 
+use std::cell::LazyCell;
+
 use super::drive;
 use super::motion::{Ahead, DOMAIN, Limits, at_least_zero, one_of};
 use super::system::{every_step_keeps, stands_before};
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::h14_fail_safe::meeting;
+use crate::hardened::h14_fail_safe::meeting::{self, BesideRoute};
+use crate::hardened::h14_fail_safe::motions::all_motions;
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::numbers::real::Real;
@@ -86,7 +89,8 @@ fn beyond_s_stop(centimetres: i64) -> Formula {
     given(less(&-&aside, &y));
     given(less(&y, &aside));
     let trajectory = scene.trajectory.clone().unwrap_or_default();
-    if meeting::failure(&scene, &trajectory).is_some() {
+    let beside_route = LazyCell::new(|| BesideRoute::new(&scene, &trajectory));
+    if meeting::failure(&scene, &trajectory, &all_motions(&scene), &beside_route).is_some() {
         return Formula::Known(true);
     }
     less(&(s_stop + Real::ratio(centimetres, 100)), &free)
