@@ -54,8 +54,10 @@ pub fn union_contains(triangles: &[Triangle], square: &[Vector; 4]) -> bool {
 fn shares_a_point(triangle: &Triangle, other: &[Vector]) -> bool {
     let zero = Real::zero();
     let overlaps = |coordinate: fn(&Vector) -> &Real| {
-        let (a, b) = (range(triangle, coordinate), range(other, coordinate));
-        a.0 <= b.1 && b.0 <= a.1
+        let is_beyond = |a: &[Vector], b: &[Vector]| {
+            a.iter().all(|a| b.iter().all(|b| coordinate(a) > coordinate(b)))
+        };
+        !is_beyond(triangle, other) && !is_beyond(other, triangle)
     };
     let sides = || (0..3).map(|i| (&triangle[i], &triangle[(i + 1) % 3], &triangle[(i + 2) % 3]));
     overlaps(|point| &point.x)
@@ -70,13 +72,6 @@ fn shares_a_point(triangle: &Triangle, other: &[Vector]) -> bool {
             let all_right = others.iter().all(|beside| *beside < zero && *beside < opposite);
             !all_left && !all_right
         })
-}
-
-/// Least and greatest of a coordinate.
-fn range(points: &[Vector], coordinate: fn(&Vector) -> &Real) -> (&Real, &Real) {
-    let mut values = points.iter().map(coordinate);
-    let first = values.next().expect("triangles and squares have corners");
-    values.fold((first, first), |(least, most), value| (least.min(value), most.max(value)))
 }
 
 /// The convex pieces of positive area that are left of a convex piece outside the triangle.

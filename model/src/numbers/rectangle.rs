@@ -40,12 +40,6 @@ impl Rectangle {
         &self.half_length * direction.dot(axis).abs()
             + &self.half_width * direction.cross(axis).abs()
     }
-
-    fn corners(&self) -> [Vector; 4] {
-        let (l, w) = (&self.half_length, &self.half_width);
-        let corner = |a: &Real, b: &Real| self.frame.point(a, b);
-        [corner(l, w), corner(&-l, w), corner(&-l, &-w), corner(l, &-w)]
-    }
 }
 
 /// The rectangles share a point, or nearly so: half length and half width of the first are raised by
@@ -54,19 +48,24 @@ pub fn may_share_a_point(reads: &Comparisons, a: &Rectangle, b: &Rectangle) -> b
     share_a_point(&a.with_halves(|half| reads.raised(half)), b)
 }
 
-/// The rectangles share a point: no axis parallel to a side of one of them separates their
-/// corners (two convex polygons are disjoint exactly when the normal of some side separates them).
+/// The rectangles share a point: no axis parallel to a side of one of them separates them (two convex
+/// polygons are disjoint exactly when the normal of some side separates them).
 pub fn share_a_point(a: &Rectangle, b: &Rectangle) -> bool {
     if a.is_empty() || b.is_empty() {
         return false;
     }
-    let (corners_a, corners_b) = (a.corners(), b.corners());
+    let apart = &b.frame.origin - &a.frame.origin;
     [&a.frame.direction, &b.frame.direction].into_iter().all(|direction| {
-        [direction, &direction.left()].into_iter().all(|axis| {
-            let (a, b) = (extent(&corners_a, axis), extent(&corners_b, axis));
-            a.0 <= b.1 && b.0 <= a.1
-        })
+        [direction, &direction.left()]
+            .into_iter()
+            .all(|axis| apart.dot(axis).abs() <= reach(a, b, axis))
     })
+}
+
+/// The greatest scalar product with the axis that the centre of one rectangle can have, seen from that of
+/// the other, where the axis does not separate them.
+fn reach(a: &Rectangle, b: &Rectangle, axis: &Vector) -> Real {
+    a.half_extent(axis) + b.half_extent(axis)
 }
 
 /// The rectangle `a` shares a point with `b + w t` for some t >= 0. What `b` sweeps is convex, too: its
@@ -76,11 +75,11 @@ pub fn is_swept_over(a: &Rectangle, b: &Rectangle, w: &Vector) -> bool {
     if a.is_empty() || b.is_empty() {
         return false;
     }
-    let (corners_a, corners_b) = (a.corners(), b.corners());
+    let apart = &b.frame.origin - &a.frame.origin;
     [&a.frame.direction, &b.frame.direction, w].into_iter().all(|direction| {
         let left = direction.left();
         [direction, &-direction, &left, &-&left].into_iter().all(|normal| {
-            let separates = extent(&corners_b, normal).0 > extent(&corners_a, normal).1;
+            let separates = apart.dot(normal) > reach(a, b, normal);
             !(separates && normal.dot(w) >= Real::zero())
         })
     })
@@ -102,17 +101,10 @@ pub fn is_swept_over_between(
     let axes = |direction: &Vector| [direction.clone(), direction.left()];
     let axes = [axes(&a.frame.direction), axes(&b.frame.direction)];
     axes.iter().flatten().chain([&w.left()]).all(|axis| {
-        let reach = a.half_extent(axis) + b.half_extent(axis);
+        let reach = reach(a, b, axis);
         let beyond = moved.each_ref().map(|moved| (&apart + moved).dot(axis));
         let all_after = beyond.iter().all(|distance| *distance > reach);
         let all_before = beyond.iter().all(|distance| -distance > reach);
         !all_after && !all_before
     })
-}
-
-/// Least and greatest scalar product with the axis.
-fn extent(points: &[Vector; 4], axis: &Vector) -> (Real, Real) {
-    let [a, b, c, d] = points.each_ref().map(|point| point.dot(axis));
-    let least = (&a).min(&b).min(&c).min(&d).clone();
-    (least, a.max(b).max(c).max(d))
 }

@@ -4,6 +4,8 @@
 //! given ones. An interval of one point is the exact value: a result is a point only where the
 //! operation is known to be exact.
 
+use std::cmp::Ordering;
+
 /// lo <= value <= hi.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
@@ -21,6 +23,17 @@ impl Interval {
         self.lo == self.hi
     }
 
+    /// The order of the values, where the intervals tell.
+    pub(super) fn order(self, other: Self) -> Option<Ordering> {
+        if self.is_point() && other.is_point() {
+            return self.lo.partial_cmp(&other.lo);
+        }
+        if self.hi < other.lo {
+            return Some(Ordering::Less);
+        }
+        (self.lo > other.hi).then_some(Ordering::Greater)
+    }
+
     pub(super) fn plus(self, other: Self) -> Self {
         let (lo, hi) = (self.lo + other.lo, self.hi + other.hi);
         if self.is_point() && other.is_point() && sum_is_exact(self.lo, other.lo, lo) {
@@ -31,6 +44,11 @@ impl Interval {
 
     pub(super) fn negated(self) -> Self {
         Self { lo: -self.hi, hi: -self.lo }
+    }
+
+    /// The greater of two values.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
     }
 
     pub(super) fn times(self, other: Self) -> Self {

@@ -41,6 +41,7 @@ enum Term {
     Difference(Real, Real),
     Product(Real, Real),
     Quotient(Real, Real),
+    Greater(Real, Real),
     Root(Real),
 }
 
@@ -105,7 +106,7 @@ impl Real {
     /// The absolute value.
     #[must_use]
     pub fn abs(&self) -> Self {
-        if *self < Self::zero() { -self } else { self.clone() }
+        self.clone().max(-self)
     }
 
     /// The nearest double, for witnesses.
@@ -147,6 +148,10 @@ impl Real {
         Self { interval, node: Some(Rc::new(Node { term, exact: OnceCell::new() })) }
     }
 
+    fn order_of_intervals(&self, other: &Self) -> Option<Ordering> {
+        if FILTER.get() { self.interval.order(other.interval) } else { None }
+    }
+
     fn exact(&self) -> Rc<Roots> {
         match &self.node {
             Some(node) => Rc::clone(node.exact.get_or_init(|| Rc::new(node.term.value()))),
@@ -171,6 +176,10 @@ impl Term {
             Self::Difference(a, b) => a.exact().plus(&RBig::NEG_ONE, &b.exact()),
             Self::Product(a, b) => a.exact().times(&b.exact()),
             Self::Quotient(a, b) => a.exact().times(&Roots::rational(RBig::ONE / b.rational())),
+            Self::Greater(a, b) => {
+                let (a, b) = (a.exact(), b.exact());
+                (if a.order(&b).is_ge() { &a } else { &b }).as_ref().clone()
+            }
             Self::Root(a) => Roots::sqrt(&a.rational()),
         }
     }
@@ -178,19 +187,20 @@ impl Term {
 
 impl Ord for Real {
     fn cmp(&self, other: &Self) -> Ordering {
-        let (a, b) = (self.interval, other.interval);
-        if FILTER.get() {
-            if a.hi < b.lo {
-                return Ordering::Less;
-            }
-            if a.lo > b.hi {
-                return Ordering::Greater;
-            }
-            if a.is_point() && b.is_point() {
-                return Ordering::Equal;
-            }
+        self.order_of_intervals(other).unwrap_or_else(|| self.exact().order(&other.exact()))
+    }
+
+    /// Where the intervals do not tell, the question waits until the result is compared.
+    fn max(self, other: Self) -> Self {
+        match self.order_of_intervals(&other) {
+            Some(Ordering::Less) => other,
+            Some(Ordering::Equal | Ordering::Greater) => self,
+            None => Self::new(self.interval.max(other.interval), Term::Greater(self, other)),
         }
-        self.exact().plus(&RBig::NEG_ONE, &other.exact()).sign()
+    }
+
+    fn min(self, other: Self) -> Self {
+        -(-self).max(-other)
     }
 }
 
@@ -217,7 +227,7 @@ impl std::iter::Sum for Real {
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        &Real::zero() - self
+        Real::new(self.interval.negated(), Term::Difference(Real::zero(), self.clone()))
     }
 }
 

@@ -75,11 +75,19 @@ impl Roots {
         }
     }
 
+    /// The order of two values.
+    pub(super) fn order(&self, other: &Self) -> Ordering {
+        match (self.as_rational(), other.as_rational()) {
+            (Some(a), Some(b)) => a.cmp(b),
+            _ => self.plus(&RBig::NEG_ONE, other).sign(),
+        }
+    }
+
     /// The sign, by enclosures of doubling precision. Only when the first one does not tell can
     /// the value be zero; then the roots are grouped first, because square roots of rationals
     /// whose pairwise products are no squares are linearly independent over the rationals
     /// (Besicovitch 1940): a grouped sum is zero only when it has no roots left.
-    pub(super) fn sign(&self) -> Ordering {
+    fn sign(&self) -> Ordering {
         if let Some(sign) = self.enclosed_sign(FIRST_BITS) {
             return sign;
         }

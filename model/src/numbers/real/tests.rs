@@ -53,10 +53,13 @@ fn expression(draw: &mut impl FnMut(u64) -> u64, depth: u64) -> Real {
         return if draw(2) == 0 { leaf(n).sqrt() } else { leaf(n) };
     }
     let (a, b) = (expression(draw, depth - 1), expression(draw, depth - 1));
-    match draw(4) {
+    match draw(7) {
         0 => a + b,
         1 => a - b,
         2 => a * b,
+        3 => a.max(b),
+        4 => a.min(b),
+        5 => (a - b).abs(),
         _ => a / (leaf(draw(9)) + number(1.0)),
     }
 }
@@ -76,4 +79,19 @@ fn filter_changes_no_comparison() {
         seen[(filtered as i8 + 1).unsigned_abs() as usize] += 1;
     }
     assert!(seen.iter().all(|&n| n > 400), "less, equal and greater all occur: {seen:?}");
+}
+
+#[test]
+fn greater_less_and_absolute_values_are_those_that_comparisons_choose() {
+    let mut draw = draws(8);
+    let mut equal = 0;
+    for _ in 0..2000 {
+        let (a, b) = (expression(&mut draw, 1), expression(&mut draw, 1));
+        let (less, greater) = if a <= b { (&a, &b) } else { (&b, &a) };
+        assert_eq!(a.clone().max(b.clone()), *greater);
+        assert_eq!(a.clone().min(b.clone()), *less);
+        assert_eq!((&a - &b).abs(), greater - less);
+        equal += i32::from(a == b);
+    }
+    assert!(equal > 20, "equal numbers occur: {equal}");
 }
