@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::io::{self, Write};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, TermLike};
@@ -39,19 +39,29 @@ pub fn is_quiet() -> bool {
 }
 
 /// A bar of so many steps; 0 where they are not known. The template is indicatif's, with `{left}` for
-/// the time that is left once that can be told.
+/// the time that is left once that can be told, and `?` for a `{len}` that is not known.
 pub fn bar(steps: u64, template: &str) -> ProgressBar {
     let target = match MODE.get().copied().unwrap_or_default() {
         Mode::Quiet => ProgressDrawTarget::hidden(),
         Mode::Bar => ProgressDrawTarget::stderr(),
         Mode::Lines => ProgressDrawTarget::term_like_with_hz(Box::new(Lines::default()), 1),
     };
+    bar_on(target, steps, template)
+}
+
+fn bar_on(target: ProgressDrawTarget, steps: u64, template: &str) -> ProgressBar {
     // With 0 of 0 steps a bar would be full.
     let bar = ProgressBar::with_draw_target((steps > 0).then_some(steps), target);
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style.with_key("left", left));
+        bar.set_style(style.with_key("left", left).with_key("len", len));
     }
     bar
+}
+
+fn len(state: &ProgressState, to: &mut dyn fmt::Write) {
+    let steps = state.len().map_or_else(|| String::from("?"), |steps| steps.to_string());
+    // A bar that cannot be drawn is none.
+    let _ = to.write_str(&steps);
 }
 
 fn left(state: &ProgressState, to: &mut dyn fmt::Write) {
@@ -74,8 +84,8 @@ pub fn in_words(time: Duration) -> String {
 }
 
 /// A terminal that keeps every line.
-#[derive(Debug, Default)]
-struct Lines(Mutex<Written>);
+#[derive(Clone, Debug, Default)]
+struct Lines(Arc<Mutex<Written>>);
 
 #[derive(Debug, Default)]
 struct Written {
@@ -143,8 +153,15 @@ mod tests {
 
     #[test]
     fn a_bar_of_unknown_length_is_not_full() {
-        let (unknown, known) = (bar(0, "{bar}"), bar(3, "{bar}"));
-        assert_eq!([unknown.length(), known.length()], [None, Some(3)]);
+        let shown = |steps| {
+            let lines = Lines::default();
+            let target = ProgressDrawTarget::term_like(Box::new(lines.clone()));
+            bar_on(target, steps, "{bar:3} {pos}/{len}").tick();
+            lines.0.lock().unwrap().last.as_ref().map(|(last, _)| last.clone())
+        };
+        let [unknown, known] = [0, 3].map(|steps| shown(steps).unwrap_or_default());
+        assert!(unknown.ends_with(" 0/?") && !unknown.contains('█'), "{unknown}");
+        assert!(known.ends_with(" 0/3"), "{known}");
     }
 
     #[test]

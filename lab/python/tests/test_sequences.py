@@ -152,6 +152,17 @@ def played(name: str, record: dict[str, Any], expected: dict[str, Any]) -> Optio
     return len(record["events"])
 
 
+def kept(states: list[dict[str, Any]]) -> int:
+    """In how many cycles the tracks of the cycle before came out again: a newer list was late or lost."""
+    stamps = [
+        tracks and tracks["stamp_ns"]
+        for state in states
+        if (decision := state["decision"])
+        for tracks in [decision["tracks"]]
+    ]
+    return sum(a is not None and a == b for a, b in zip(stamps, stamps[1:]))
+
+
 def test_every_sequence_is_answered_as_its_vector_says() -> None:
     count: Counter[str] = Counter()
     for file in sorted((ROOT / "vectors/monitor").glob("*.jsonl")):
@@ -183,8 +194,11 @@ def test_random_sequences_are_answered_as_the_model_does(tmp_path: Path) -> None
         if (why := left_out(record)) is not None:
             count[f"left out: {why}"] += 1
             continue
-        events = played(line, numbers(record), json.loads(line))
+        expected = json.loads(line)
+        events = played(line, numbers(record), expected)
         count["refused" if events is None else "played"] += 1
         count["events"] += events or 0
+        count["tracks of two cycles"] += kept(expected.get("states", []))
     print(dict(count))
     assert count["played"] >= 100 and count["events"] >= 10_000, count
+    assert count["tracks of two cycles"] >= 20, count

@@ -1,8 +1,8 @@
 //! The three readings of a comparison (`spec/4-arithmetic.md#strict-and-lax`).
 //!
 //! A stage compares as the paper does, by one of the functions of [`Comparisons`]. What `less`,
-//! `at_most`, `greater` and `at_least` say lets something pass; what `may_be_less`,
-//! `may_be_at_most` and `may_be_greater` say lets something be examined or fail. The strict reading makes the former
+//! `at_most`, `greater` and `at_least` say lets something pass; what `may_be_less` and
+//! `may_be_at_most` say lets something be examined or fail. The strict reading makes the former
 //! harder and the latter easier by the margin delta, the lax reading the other way round, and the
 //! exact reading takes both as written.
 
@@ -72,11 +72,6 @@ impl Comparisons {
     /// a <= b, or nearly so
     pub fn may_be_at_most(&self, a: &Real, b: &Real) -> bool {
         *a <= self.raised(b)
-    }
-
-    /// a > b, or nearly so
-    pub fn may_be_greater(&self, a: &Real, b: &Real) -> bool {
-        *a > self.lowered(b)
     }
 
     /// The reading is the strict one.

@@ -10,17 +10,21 @@ use mufasa_model::report::FailedStage;
 
 /// How often each case occurred.
 #[derive(Debug, Default)]
-pub struct Reached(BTreeMap<String, u64>);
+pub struct Reached {
+    counts: BTreeMap<String, u64>,
+    /// Stamp of the remote tracks that came out of the last cycle.
+    tracks_ns: Option<i64>,
+}
 
 impl fmt::Display for Reached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|(name, count)| write!(f, "{name} {count}, "))
+        self.counts.iter().try_for_each(|(name, count)| write!(f, "{name} {count}, "))
     }
 }
 
 impl Reached {
     fn saw(&mut self, name: &str) {
-        *self.0.entry(name.to_owned()).or_default() += 1;
+        *self.counts.entry(name.to_owned()).or_default() += 1;
     }
 
     pub fn count(&mut self, event: &Event, answer: &Answer) {
@@ -58,9 +62,15 @@ impl Reached {
             Some(Brake::Failed(stage, _)) => self.saw(&format!("brake {stage:?}")),
         }
         let Decision { tracks, trajectory, .. } = decision;
-        if tracks.is_some() {
+        let tracks_ns = tracks.map(|it| it.stamp_ns);
+        if tracks_ns.is_some() {
             self.saw("tracks");
+            // No newer list was accepted in between: one was late or lost.
+            if tracks_ns == self.tracks_ns {
+                self.saw("tracks of two cycles");
+            }
         }
+        self.tracks_ns = tracks_ns;
         match trajectory {
             Some(it) if it.remote.is_some() => self.saw("trajectory"),
             Some(_) => self.saw("own trajectory"),
@@ -73,11 +83,12 @@ impl Reached {
     pub fn is_enough(&self, profile: Profile) {
         let seldom = |least: u64, names: &[&str]| {
             for name in names {
-                let count = self.0.get(*name).copied().unwrap_or(0);
+                let count = self.counts.get(*name).copied().unwrap_or(0);
                 assert!(count >= least, "{profile:?}: {name}: {count}: {self}");
             }
         };
         seldom(1_000, &["safe", "tracks", "trajectory", "request", "release"]);
+        seldom(50, &["tracks of two cycles"]);
         seldom(
             10,
             &[

@@ -58,13 +58,18 @@ pub fn circles(graph: &Graph) -> Vec<(String, String)> {
     found.into_iter().collect()
 }
 
-/// Files of the stages, in model and implementation, that know the folder of the rules.
+/// Files of the stages, in model and implementation, that know a rule or the set of rules.
 pub fn stages_that_know_rules(tree: &Tree) -> Vec<(String, String)> {
     let is_stage = |path: &str| {
         ["model", "impl"].iter().any(|it| path.starts_with(&format!("{it}/src/stages/")))
+            && !path.ends_with("/tests.rs")
     };
-    let files =
-        tree.ending(".rs").filter(|(path, text)| is_stage(path) && text.contains("hardened::"));
+    let is_known = |text: &str| {
+        ["crate::hardened", "hardened::", "HardenedRule", "Profile"]
+            .iter()
+            .any(|it| text.contains(it))
+    };
+    let files = tree.ending(".rs").filter(|(path, text)| is_stage(path) && is_known(text));
     files.map(|(path, _)| (path.to_owned(), "a stage knows no rule".to_owned())).collect()
 }
 
@@ -296,8 +301,11 @@ fn a_stage_that_knows_a_rule_is_seen() {
     let tree = Tree(BTreeMap::from([
         file("impl/src/stages/v.rs", "use crate::hardened::h06;"),
         file("model/src/stages/v.rs", "use crate::stages::llcc;"),
+        file("model/src/stages/iv.rs", "use crate::input::profile::HardenedRule;"),
+        file("model/src/stages/v/tests.rs", "use crate::input::profile::Profile;"),
         file("model/src/cycle.rs", "use crate::hardened::h06;"),
     ]));
     let found = stages_that_know_rules(&tree);
-    assert_eq!(found.iter().map(|it| it.0.as_str()).collect::<Vec<_>>(), ["impl/src/stages/v.rs"]);
+    let files: Vec<&str> = found.iter().map(|it| it.0.as_str()).collect();
+    assert_eq!(files, ["impl/src/stages/v.rs", "model/src/stages/iv.rs"]);
 }

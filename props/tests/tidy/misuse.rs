@@ -40,6 +40,15 @@ pub fn wrong(tree: &Tree) -> Vec<(String, String)> {
 }
 
 #[test]
+fn slips_are_not_taken_off_the_page_and_no_more_of_them_are_silent() {
+    let tree = Tree::here();
+    let said = tree.0[PAGE].lines().find(|it| it.ends_with("are silent."));
+    let numbers: Vec<u32> =
+        said.unwrap_or_default().split(' ').filter_map(|it| it.parse().ok()).collect();
+    assert!(matches!(numbers[..], [57..=u32::MAX, 0..=17]), "{numbers:?}");
+}
+
+#[test]
 fn rows_without_a_test_and_wrong_counts_are_seen() {
     let of = |row: &str, count: &str| {
         let page = format!("{count}\n| slip | what happens | test |\n|---|---|---|\n{row}\n");

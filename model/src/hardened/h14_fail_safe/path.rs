@@ -64,8 +64,8 @@ impl Piece {
         self.u().dot(&self.a.direction).max(Real::zero())
     }
 
-    /// The least integer n >= 1 with abs(u_x) <= n d and abs(u_y) <= n d.
-    fn n(&self, d: &Real) -> i64 {
+    /// The least integer j >= 1 with abs(u_x) <= j d and abs(u_y) <= j d.
+    fn parts(&self, d: &Real) -> i64 {
         let u = self.u();
         let longer = u.x.abs().max(u.y.abs());
         (-(-(longer / d)).floor()).max(1)
@@ -73,13 +73,13 @@ impl Piece {
 
     /// Its places behind a; the last one is b.
     fn steps(self, d: &Real) -> impl Iterator<Item = Step> + use<> {
-        let (n, u, advance) = (self.n(d), self.u(), self.advance());
-        (1..=n).map(move |k| {
-            let share = integer(k) / integer(n);
+        let (j, u, advance) = (self.parts(d), self.u(), self.advance());
+        (1..=j).map(move |k| {
+            let share = integer(k) / integer(j);
             let origin = &self.a.origin + &u.scaled(&share);
             let way = &self.way + &advance * share;
             let heading = self.a.direction.clone();
-            if k == n {
+            if k == j {
                 Step { pose: self.b.clone(), way, heading }
             } else {
                 Step { pose: Frame { origin, direction: heading.clone() }, way, heading }
@@ -206,12 +206,12 @@ pub fn count(scene: &Scene, trajectory: &[Point]) -> i128 {
     let (pieces, _, way) = pieces(scene, trajectory);
     let mut count = 1 + last;
     for piece in pieces {
-        let (n, advance) = (piece.n(&d), piece.advance());
+        let (j, advance) = (piece.parts(&d), piece.advance());
         if &piece.way + &advance > end {
-            let most = (end - piece.way) * integer(n) / advance;
+            let most = (end - piece.way) * integer(j) / advance;
             return count + i128::from(most.floor()).max(0);
         }
-        count += i128::from(n);
+        count += i128::from(j);
     }
     count + i128::from(((end - way) / d).floor()).max(0)
 }
