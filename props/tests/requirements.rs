@@ -2,8 +2,8 @@
 //!
 //! `**[DIST-02]**` in the text names a requirement (`tree/ids.rs`); comments and strings of tests and
 //! of `proofs/`, `requirement` and `flag` of vectors, and comments of the code cite it.
-//! `spec/requirements.lock` holds a hash of each requirement and, of each citation, the hash of what was
-//! confirmed. Who changes a sentence reads what cites it and confirms it, id by id:
+//! `spec/requirements.lock` holds a hash of each requirement as it was confirmed. Who changes a sentence reads what cites
+//! it and confirms it, id by id:
 //! `CONFIRM=DIST-02,H-04.1 cargo test -p mufasa-props --test requirements`.
 //! This, and `UPDATE_MATRIX=1`, writes `docs/requirements.csv`, a row for each requirement. With
 //! `-- --nocapture` the table of requirements and citations is printed.
@@ -130,7 +130,7 @@ fn what_cites_a_requirement_was_confirmed_since_it_changed() {
     let mut lock = Lock::parse(lock_of(&tree));
     if let Ok(names) = std::env::var("CONFIRM") {
         let names = names.split([',', ' ']).filter(|it| !it.is_empty());
-        lock.confirm(&names.collect::<Vec<_>>(), &found, &cited);
+        lock.confirm(&names.collect::<Vec<_>>(), &found);
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(LOCK);
         std::fs::write(file, lock.to_string()).expect("the lock can be written");
     }

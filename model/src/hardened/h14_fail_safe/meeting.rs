@@ -169,7 +169,7 @@ impl BesideRoute {
             let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
             let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &widening);
             let cav = wider(scene, trajectory, &place.pose);
-            (d_k, e_k.reduce(Ord::max).unwrap_or_else(Real::zero), cav)
+            (d_k, e_k.max().unwrap_or_else(Real::zero), cav)
         };
         let places = places(scene, trajectory).map(distances).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));

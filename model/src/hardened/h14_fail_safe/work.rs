@@ -85,8 +85,8 @@ fn extents(scene: &Scene, trajectory: &[Point]) -> [Extent; 2] {
     let h_ego = &scene.ego.heading;
     [h_ego.clone(), h_ego.left()].map(|axis| {
         let sides = path.iter().map(|cav| (cav.frame.origin.dot(&axis), cav.half_extent(&axis)));
-        let least = sides.clone().map(|(at, half)| at - half).reduce(Ord::min);
-        let greatest = sides.map(|(at, half)| at + half).reduce(Ord::max);
+        let least = sides.clone().map(|(at, half)| at - half).min();
+        let greatest = sides.map(|(at, half)| at + half).max();
         let [least, greatest] = [least, greatest].map(|it| it.expect("a path has two ends"));
         Extent { axis, least, greatest }
     })

@@ -190,7 +190,8 @@ impl Ord for Real {
         self.order_of_intervals(other).unwrap_or_else(|| self.exact().order(&other.exact()))
     }
 
-    /// Where the intervals do not tell, the question waits until the result is compared.
+    /// Where the intervals do not tell, the question waits until the result is compared: not for long lists, whose
+    /// greatest would be a chain of questions.
     fn max(self, other: Self) -> Self {
         match self.order_of_intervals(&other) {
             Some(Ordering::Less) => other,
