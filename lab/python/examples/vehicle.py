@@ -34,6 +34,7 @@ PERIOD = timedelta(milliseconds=50)
 # Cycles.
 SECOND = 20
 CYCLES = 20 * SECOND
+LOST = 2 * SECOND  # the cycle whose messages are lost
 
 
 def main() -> None:
@@ -57,14 +58,14 @@ def main() -> None:
         for request in asked:
             station.take(monitor.confirm(now, 1, request.group, request.session))
         station.take(monitor.tick(now))
-        if (session := station.sessions.get("mot")) is not None:
+        if (session := station.sessions.get("mot")) is not None and cycle != LOST:
             aside = 3.0 if 4 * SECOND <= cycle < 5 * SECOND else 0.0
             station.take(
                 monitor.tracks(
                     now, station=1, session=session, generated=now, stamp=now, items=world.tracks(aside)
                 )
             )
-        if (session := station.sessions.get("plan")) is not None:
+        if (session := station.sessions.get("plan")) is not None and cycle != LOST:
             station.take(
                 monitor.trajectory(
                     now, station=1, session=session, generated=now, stamp=now, points=world.trajectory()
@@ -81,6 +82,8 @@ def main() -> None:
             local_trajectory=Trajectory(now, own_plan),
         )
         station.take(decision.actions)
+        if cycle == LOST and decision.trajectory is None:
+            raise SystemExit("a lost message was not bridged")
         # What contradicts itself, told once: for a log that somebody reads.
         if (advice := monitor.advice()) is not None:
             print("advice:", advice)
