@@ -2,7 +2,7 @@
 //!
 //! `**[DIST-02]**` in the text names a requirement (`tree/ids.rs`); comments and strings of tests and
 //! of `proofs/`, `requirement` and `flag` of vectors, and comments of the code cite it.
-//! `spec/requirements.lock` holds a hash of each requirement as it was confirmed. Who changes a sentence reads what cites
+//! `spec/requirements.lock` holds a hash of each requirement, and of the terms of each rule, as it was confirmed. Who changes a sentence reads what cites
 //! it and confirms it, id by id:
 //! `CONFIRM=DIST-02,H-04.1 cargo test -p mufasa-props --test requirements`.
 //! This, and `UPDATE_MATRIX=1`, writes `docs/requirements.csv`, a row for each requirement. With
@@ -27,7 +27,7 @@ use std::path::Path;
 
 use citations::{Citations, citations, is_code, strangers};
 use code::{matrix, not_implemented};
-use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
+use ids::{PREFIXES, Requirement, definitions, prefix, prefixes, requirements, rule};
 use lock::Lock;
 use tree::Tree;
 
@@ -125,7 +125,8 @@ fn every_citation_is_of_a_requirement() {
 #[test]
 fn what_cites_a_requirement_was_confirmed_since_it_changed() {
     let tree = Tree::here();
-    let (found, _) = requirements(&tree);
+    let (mut found, _) = requirements(&tree);
+    found.extend(definitions(&tree));
     let cited = citations(&tree);
     let mut lock = Lock::parse(lock_of(&tree));
     if let Ok(names) = std::env::var("CONFIRM") {

@@ -6,7 +6,7 @@ use std::fmt;
 
 use super::citations::Citations;
 use super::hash;
-use super::ids::{Requirement, rule};
+use super::ids::{Requirement, prefix, rule};
 
 /// The lock.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,8 +47,13 @@ impl Lock {
                 Some(hash) if *hash != hash::of(text) => "has changed",
                 Some(_) => continue,
             };
-            // What cites a rule as a whole is about each of its requirements.
-            let by = [id.as_str(), rule(id)].into_iter().filter_map(|it| cited.get(it)).flatten();
+            // What cites a rule as a whole is about each of its requirements, and these are about its terms.
+            let (of, is_chapter) =
+                id.split_once(':').map_or((id.as_str(), false), |(of, _)| (of, true));
+            let is_about = |it: &str| {
+                it == of || it == rule(of) || is_chapter && [rule(it), prefix(it)].contains(&of)
+            };
+            let by = cited.iter().filter(|(it, _)| is_about(it)).flat_map(|(_, by)| by);
             let by: BTreeSet<&str> = by.map(String::as_str).collect();
             let by = Vec::from_iter(by).join(", ");
             wrong.push(format!("{id} {what}: {text}\n    read and confirm (CONFIRM={id}): {by}"));
@@ -119,6 +124,17 @@ mod tests {
         lock.confirm(&["H-04.1"], &of("It MUST."));
         assert_eq!(lock.suspects(&of("It MUST."), &by), [""; 0]);
         assert!(lock.suspects(&of("It MUST NOT."), &by)[0].ends_with("(CONFIRM=H-04.1): a_test"));
+    }
+
+    #[test]
+    fn what_cites_a_requirement_is_suspect_with_the_terms_of_its_rule() {
+        let terms = [requirement("H-04:Terms", "s: a way.")];
+        let by =
+            |id: &str| Citations::from([(id.to_owned(), BTreeSet::from(["a_test".to_owned()]))]);
+        let ends = |id| {
+            Lock::default().suspects(&terms, &by(id))[0].ends_with("(CONFIRM=H-04:Terms): a_test")
+        };
+        assert!(ends("H-04.1") && ends("H-04") && !ends("H-05.1"));
     }
 
     #[test]
