@@ -131,9 +131,7 @@ impl<'t> Script<'t> {
         loop {
             let phase = self.phase;
             self.phase = (phase + 1) % 7;
-            // Messages are lost more often: the cycle then has the element before.
-            let is_message = matches!(phase, 4 | 5);
-            let is_left_out = self.draw.one_in(if is_message { 8 } else { 30 * self.calm });
+            let is_left_out = self.draw.one_in(30 * self.calm);
             let kind = match phase {
                 0 => {
                     self.period();
