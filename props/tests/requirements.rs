@@ -27,8 +27,8 @@ use std::path::Path;
 
 use citations::{Citations, citations, is_code, strangers};
 use code::{matrix, not_implemented};
-use ids::{PREFIXES, Requirement, definitions, prefix, prefixes, requirements, rule};
-use lock::Lock;
+use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
+use lock::{Lock, definitions};
 use tree::Tree;
 
 const LOCK: &str = "spec/requirements.lock";

@@ -77,34 +77,6 @@ pub fn requirements(tree: &Tree) -> (Vec<Requirement>, Vec<String>) {
     (found, nameless)
 }
 
-/// Chapters that requirements count on without an id of their own: `H-06:Terms` of a rule's page, and those of
-/// `spec/4-arithmetic.md` that a requirement names.
-pub fn definitions(tree: &Tree) -> Vec<Requirement> {
-    let chapter = |text: &str, heading: &str| {
-        let rest = text.split_once(&format!("\n## {heading}\n"))?.1;
-        let words = rest.split("\n## ").next().unwrap_or_default();
-        Some(words.split_whitespace().collect::<Vec<_>>().join(" "))
-    };
-    let mut found = Vec::new();
-    let mut add = |file: &str, of: &str, heading: &str| {
-        let text = tree.0.get(file).and_then(|text| chapter(text, heading));
-        let place = format!("{file}#{}", heading.to_lowercase());
-        let id = format!("{of}:{}", heading.replace(' ', "-"));
-        found.extend(text.map(|text| Requirement { id, place, text }));
-    };
-    for (file, _) in tree.ending(".md").filter(|(path, _)| is_normative(path)) {
-        let name = file.rsplit('/').next().unwrap_or_default();
-        add(file, name.trim_end_matches(".md"), "Terms");
-    }
-    add("spec/hardened/what-the-cav-saw.md", "SEEN", "Symbols");
-    for (of, heading) in
-        [("IMPL-10", "Steps"), ("IMPL-14", "Usual settings"), ("IMPL-16", "Advice")]
-    {
-        add("spec/4-arithmetic.md", of, heading);
-    }
-    found
-}
-
 /// The id at the beginning of a line, and what stands behind it. A row of interpretations begins
 /// with its id alone.
 fn begins(line: &str) -> Option<(&str, &str)> {
