@@ -394,7 +394,6 @@ fn the_monitor_in_c_answers_as_the_model() {
         }
     }
     assert!(count["steps"] >= 10_000 && count["own tracks left out"] <= 50, "{count:?}");
-    assert!(count["tracks of two cycles"] >= 20, "{count:?}");
-    count.retain(|what, _| !["own tracks left out", "tracks of two cycles"].contains(what));
+    count.remove("own tracks left out");
     assert!(count.values().all(|it| *it >= 50), "{count:?}");
 }

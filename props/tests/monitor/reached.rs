@@ -88,10 +88,10 @@ impl Reached {
             }
         };
         seldom(1_000, &["safe", "tracks", "trajectory", "request", "release"]);
+        seldom(50, &["tracks of two cycles"]);
         seldom(
             10,
             &[
-                "tracks of two cycles",
                 "dropped OtherSession",
                 "dropped DoesNotFit",
                 "dropped Stale",

@@ -131,7 +131,8 @@ impl<'t> Script<'t> {
         loop {
             let phase = self.phase;
             self.phase = (phase + 1) % 7;
-            let is_left_out = self.draw.one_in(30 * self.calm);
+            let rarely = if matches!(phase, 4 | 5) { 8 } else { 30 * self.calm };
+            let is_left_out = self.draw.one_in(rarely);
             let kind = match phase {
                 0 => {
                     self.period();

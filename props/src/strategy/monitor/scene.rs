@@ -18,6 +18,9 @@ pub fn route() -> Route {
     Route { closed: false, cross_sections: [-20.0, 20.0, 60.0].map(at).to_vec() }
 }
 
+/// How far the CAV goes at once, m. No sum of such ways is the tolerance of a start, so that no margin decides.
+pub(super) const WAY: f64 = 1.25;
+
 /// Where things are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scene {
@@ -91,7 +94,7 @@ impl Scene {
         last_kept_ns: Option<i64>,
     ) -> Measured {
         if draw.one_in(calm) {
-            let way = settings.stall.map_or(1.0, |it| it.way);
+            let way = settings.stall.map_or(WAY, |it| it.way);
             self.x = draw.pick(&[self.x, self.x + way, self.x + way.next_up(), 0.0]);
         }
         if draw.one_in(calm) {

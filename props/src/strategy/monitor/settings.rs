@@ -5,6 +5,7 @@ use mufasa_model::input::profile::Profile;
 use mufasa_model::monitor::settings::{Memory, Settings, Stall};
 use mufasa_model::offloading::requester;
 
+use super::scene::WAY;
 use super::times::MS;
 use crate::strategy::draw::Draw;
 
@@ -24,7 +25,7 @@ pub fn accepted(draw: &mut Draw<'_>, profile: Profile) -> Settings {
         dt_max_ns,
         qos_hold: draw.one_in(3),
     };
-    let stall = Stall { way: 1.0, time_ns: 1_000 * MS };
+    let stall = Stall { way: WAY, time_ns: 1_000 * MS };
     Settings {
         profile,
         parameters,
