@@ -21,7 +21,6 @@ use crate::input::indexes::Indexes;
 use crate::input::parameters::Parameters;
 use crate::input::profile::HardenedRule;
 use crate::input::scratch::{Row, Scratch};
-use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::Witness;
 use crate::stages::i_track_validation::gate::Gate;
@@ -146,8 +145,8 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
             return Seen::Unclear(witness);
         }
         let mut pairs = tracks.items.iter().zip(scratch.rows.iter_mut());
-        let judge = Judge::new(cycle, detections.items);
-        let unclear = pairs.find_map(|(track, row)| judge.judge(track, row));
+        let (parameters, items) = (&cycle.parameters, detections.items);
+        let unclear = pairs.find_map(|(track, row)| judge(parameters, items, track, row));
         match unclear {
             Some(witness) => Seen::Unclear(witness),
             None if cycle.profile.has(HardenedRule::H01)
@@ -236,70 +235,37 @@ impl Row {
     }
 }
 
-/// Which tracks are backed and confirmed.
-struct Judge<'a> {
-    parameters: &'a Parameters,
-    detections: &'a [Detection],
-    /// The square of a speed that is certainly below `v_object`, m^2/s^2.
-    slow: f64,
-    /// Below the bound on the velocity across of every track, m/s.
-    straight: f64,
-}
-
-impl<'a> Judge<'a> {
-    fn new(cycle: &'a Cycle<'_>, detections: &'a [Detection]) -> Self {
-        let parameters = &cycle.parameters;
-        let slow = larger(parameters.v_object - 2.0 * CLOSE, 0.0);
-        let straight = parameters.theta_velocity - 2.0 * CLOSE;
-        Self { parameters, detections, slow: slow * slow, straight }
+/// Whether a track is backed and confirmed (SEEN-08, SEEN-10, SEEN-11); the witness when that
+/// is too close to call.
+fn judge(
+    parameters: &Parameters,
+    detections: &[Detection],
+    track: &Track,
+    row: &mut Row,
+) -> Option<Witness> {
+    let speed = libm::sqrt(track.vx * track.vx + track.vy * track.vy);
+    let v_object = parameters.v_object;
+    if (speed - v_object).abs() <= CLOSE {
+        return Some(too_close(track, [speed, v_object]));
     }
-
-    /// Whether a track is backed and confirmed (SEEN-08, SEEN-10, SEEN-11); the witness when that
-    /// is too close to call. With `judge_closely` alone stage i of W1 takes 6 % more instructions.
-    #[inline]
-    fn judge(&self, track: &Track, row: &mut Row) -> Option<Witness> {
-        let squared = track.vx * track.vx + track.vy * track.vy;
-        if squared >= self.slow {
-            return self.judge_closely(track, row);
+    if speed > v_object || !row.has_own_origins() {
+        return None;
+    }
+    row.seen |= BACKED;
+    // SEEN-10, SEEN-11
+    let detection = detections.get(usize::from(row.own_detection()?))?;
+    if detection.length > 1.0 {
+        let across = across(track, detection);
+        let most = parameters.theta_velocity + speed * 0.1;
+        if (across - most).abs() <= CLOSE {
+            return Some(too_close(track, [across, most]));
         }
-        if !row.has_own_origins() {
+        if across > most {
             return None;
         }
-        row.seen |= BACKED;
-        let detection = self.detections.get(usize::from(row.own_detection()?))?;
-        if detection.length > 1.0 && across(track, detection) >= self.straight {
-            return self.judge_closely(track, row);
-        }
-        row.seen |= CONFIRMED;
-        None
     }
-
-    #[inline(never)]
-    fn judge_closely(&self, track: &Track, row: &mut Row) -> Option<Witness> {
-        let speed = libm::sqrt(track.vx * track.vx + track.vy * track.vy);
-        let v_object = self.parameters.v_object;
-        if (speed - v_object).abs() <= CLOSE {
-            return Some(too_close(track, [speed, v_object]));
-        }
-        if speed > v_object || !row.has_own_origins() {
-            return None;
-        }
-        row.seen |= BACKED;
-        // SEEN-10, SEEN-11
-        let detection = self.detections.get(usize::from(row.own_detection()?))?;
-        if detection.length > 1.0 {
-            let across = across(track, detection);
-            let most = self.parameters.theta_velocity + speed * 0.1;
-            if (across - most).abs() <= CLOSE {
-                return Some(too_close(track, [across, most]));
-            }
-            if across > most {
-                return None;
-            }
-        }
-        row.seen |= CONFIRMED;
-        None
-    }
+    row.seen |= CONFIRMED;
+    None
 }
 
 /// The part of a velocity across the direction of a detection, m/s.
