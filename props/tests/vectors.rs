@@ -1,17 +1,25 @@
 //! Model and implementation on every published vector (`spec/5-interfaces.md#vectors`): what `vectors/` shows has no
 //! second test of its own.
 
+#[path = "tree/numbers.rs"]
+mod numbers;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use mufasa_model::cycle::check;
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::report::Reading;
 use mufasa_props::bridge;
 use mufasa_props::refine::{Monitors, Pair};
-use mufasa_records::{self as json, Record, Sequence};
+use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::{self as json, Record, Sequence, Trace};
 use serde_json::Value;
 use serde_json::value::RawValue;
+
+use numbers::numbers;
 
 /// A vector: its keys with their text, since a JSON library may change a last digit.
 type Vector = BTreeMap<String, Box<RawValue>>;
@@ -120,4 +128,63 @@ fn played(sequence: &Sequence) -> Result<(), String> {
         return Ok(());
     };
     sequence.events.iter().try_for_each(|event| pair.step(event).map(drop))
+}
+
+/// What a record is answered in a profile: of a cycle whether it is safe, of a trace its states.
+fn decided(record: &Record, profile: Profile) -> Option<String> {
+    match record {
+        Record::Cycle { cycle, .. } => {
+            let report = check(&Cycle { profile, ..cycle.as_ref().clone() }, Reading::Exact);
+            report.ok().map(|it| it.failed_stage.is_none().to_string())
+        }
+        Record::Offloading { trace, .. } => {
+            let trace = Trace { profile, ..trace.clone() };
+            let states = OffloadingAnswer::run(String::new(), &trace).states;
+            serde_json::to_string(&states).ok()
+        }
+        _ => None,
+    }
+}
+
+/// A rule closes a finding when one of its vectors is decided as `hardened` does by the rule beside the paper alone,
+/// or as `paper` does without it; `hardened` and `paper` differ there.
+#[test]
+fn each_rule_closes_the_findings_of_its_row() {
+    let alone = |rule: HardenedRule| {
+        let others = HardenedRule::ALL.into_iter().filter(|it| *it != rule);
+        others.fold(Profile::HARDENED, Profile::without)
+    };
+    let mut shown = BTreeMap::<&str, BTreeSet<String>>::new();
+    each(|vector, line| {
+        let id: String = serde_json::from_str(vector["id"].get()).expect("a string");
+        let Ok(record) = json::parse(line.as_bytes(), 1) else { return };
+        let paper = decided(&record, Profile::PAPER);
+        let hardened = decided(&record, Profile::HARDENED);
+        if !id.starts_with("F-") || paper == hardened {
+            return;
+        }
+        for rule in HardenedRule::ALL {
+            let without = decided(&record, Profile::HARDENED.without(rule));
+            if without == paper || decided(&record, alone(rule)) == hardened {
+                shown.entry(rule.id()).or_default().insert(id[2..4].to_owned());
+            }
+        }
+    });
+    let spec = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/hardened/README.md");
+    let text = fs::read_to_string(spec).expect("the table of rules");
+    let rows = text.lines().filter_map(|line| line.strip_prefix("| [")?.split_once(']'));
+    let mut count = 0;
+    for (rule, row) in rows {
+        let closed = row.rsplit(" | ").next().unwrap_or_default();
+        for finding in numbers("F-", closed) {
+            assert!(
+                shown[rule].contains(&finding),
+                "{rule}: no vector shows F-{finding}: {shown:?}"
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 40, "{count}");
+    // No vector of F-05 or F-15 needs these rules.
+    assert!(!shown["H-04"].contains("05") && !shown["H-10"].contains("15"));
 }

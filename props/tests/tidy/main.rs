@@ -3,6 +3,7 @@
 //! breaks it. Exceptions stand here, each with its reason; one that is not needed any more fails.
 
 mod circles;
+mod closes;
 mod evidence;
 #[path = "../tree/hash.rs"]
 mod hash;
@@ -17,6 +18,8 @@ mod loops;
 mod misuse;
 mod must;
 mod names;
+#[path = "../tree/numbers.rs"]
+mod numbers;
 mod packages;
 mod safety_case;
 mod style;
@@ -144,6 +147,11 @@ fn every_file_that_is_named_exists() {
 #[test]
 fn intervals_are_those_of_their_counts() {
     judge(&intervals::wrong(&Tree::here()), &[]);
+}
+
+#[test]
+fn rules_close_the_same_findings_in_all_tables() {
+    judge(&closes::wrong(&Tree::here()), &[]);
 }
 
 /// An assessor looks it up.
