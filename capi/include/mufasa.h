@@ -935,9 +935,9 @@ typedef struct MufasaMonitorSettings {
   // Times of the requester.
   struct MufasaRequesterParameters requester;
   // The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
-  // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. (The
-  // default of `dt_max_ns`, 100 ms, is the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in
-  // seconds, in the hardened profile.
+  // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
+  // periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. So has
+  // `stages.tau`, in seconds, in the hardened profile.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
@@ -1043,7 +1043,7 @@ typedef struct MufasaDecision {
 
 // What is wrong with settings. The texts are empty when nothing is.
 typedef struct MufasaSettingsProblem {
-  // Dotted path of the field, such as stages.a_b.
+  // Dotted path of the field; parameters.a_b is `stages.a_b`.
   char field[MUFASA_TEXT_BYTES];
   // What is wrong and what would be right.
   char message[MUFASA_TEXT_BYTES];
@@ -1331,6 +1331,9 @@ MUFASA_MUST_USE const char *mufasa_action_text(uint32_t action_type);
 
 // A MufasaAdvice in words.
 MUFASA_MUST_USE const char *mufasa_advice_text(uint32_t advice);
+
+// A MufasaFailedStage in words.
+MUFASA_MUST_USE const char *mufasa_failed_stage_text(uint32_t failed_stage);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -55,6 +55,17 @@ const ADVICE: [&CStr; 9] = [
     c"the gap is shorter than the way to the detection ahead; are sizes and center_offset right?",
     c"no tick comes before the cycles; nothing is offloaded without it",
 ];
+const FAILED_STAGES: [&CStr; 9] = [
+    c"none failed",
+    c"stage i, track validation",
+    c"stage ii, trajectory to map",
+    c"stage iii, trajectory with tracks",
+    c"stage iv, trajectory with detections",
+    c"stage v, trajectory with grid map",
+    c"invalid remote data",
+    c"a trajectory that nothing compared with obstacles",
+    c"invalid local input, or a call that failed",
+];
 
 fn text(of: &[&'static CStr], number: u32) -> *const c_char {
     let known = usize::try_from(number).ok().and_then(|index| of.get(index).copied());
@@ -87,4 +98,11 @@ pub extern "C" fn mufasa_action_text(action_type: u32) -> *const c_char {
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_advice_text(advice: u32) -> *const c_char {
     text(&ADVICE, advice)
+}
+
+/// A MufasaFailedStage in words.
+#[must_use]
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_failed_stage_text(failed_stage: u32) -> *const c_char {
+    text(&FAILED_STAGES, failed_stage)
 }

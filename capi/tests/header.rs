@@ -6,7 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use mufasa_capi::text::{
-    mufasa_action_text, mufasa_advice_text, mufasa_drop_reason_text, mufasa_status_text,
+    mufasa_action_text, mufasa_advice_text, mufasa_drop_reason_text, mufasa_failed_stage_text,
+    mufasa_status_text,
 };
 
 /// The source of the structs of `src/parameters.rs`: cbindgen expands no macro.
@@ -161,6 +162,7 @@ fn every_status_drop_reason_and_action_has_a_text() {
         ("  MUFASA_DROP_REASON_", mufasa_drop_reason_text),
         ("  MUFASA_ACTION_TYPE_", mufasa_action_text),
         ("  MUFASA_ADVICE_", mufasa_advice_text),
+        ("  MUFASA_FAILED_STAGE_", mufasa_failed_stage_text),
     ] {
         let values = header.lines().filter(|line| line.starts_with(prefix));
         let numbers = values.map(|line| line.split(['=', ',']).nth(1).expect(line).trim());

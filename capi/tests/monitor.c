@@ -268,6 +268,10 @@ static void a_status_of_the_settings_has_a_field(void) {
   it.stages.a_b = 0;
   is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "parameters.a_b");
   it = settings();
+  it.stages.n = 65;
+  struct MufasaSettingsProblem disks = is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "parameters.n");
+  EXPECT(disks.value == 65 && disks.least == 1 && disks.most == 64);
+  it = settings();
   it.period_ns = -1;
   is_about(&it, MUFASA_STATUS_INVALID_PERIOD, "period_ns");
   it.period_ns = 0;

@@ -22,6 +22,8 @@ const PERIOD: Duration = Duration::from_millis(50);
 const SECOND: i64 = 20;
 const CYCLES: i64 = 20 * SECOND;
 const MOST_DETECTIONS: usize = 16;
+/// From the command to full braking, the vehicle's own.
+const BUILD_UP: Duration = Duration::from_millis(100);
 /// The network loses what the station sends in this cycle.
 const LOST: i64 = 2 * SECOND;
 
@@ -45,15 +47,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     monitor.set_route(&Route { closed: false, cross_sections: &route })?;
 
     let mut station = Station::default();
-    let (mut driven, mut fallbacks) = (Vec::new(), 0);
-    // The last verified trajectory: followed where a safe cycle has none and the own planner stands, until its
-    // `brake_by`: it brakes fully by then, so begins earlier by the build-up of its brakes, which this stand-in does
-    // not have. Control, which runs more often than cycles do, has to look at that time itself.
+    let (mut driven, mut fallbacks, mut copied) = (Vec::new(), 0, 0);
+    // The last verified trajectory: followed where no other is there, also after an unsafe cycle, until its `brake_by`.
+    // The CAV brakes fully by then, so begins earlier by the build-up of its brakes; here it is then no point.
+    // Control, which runs more often than cycles do, has to look at that time itself.
     let (mut kept, mut brake_by) = (Vec::new(), None);
     // The last of each that was accepted: it bridges a lost message while it is current.
     let (mut tracks, mut trajectory) = (None, None);
     for cycle in 0..CYCLES {
-        let now = Time::from_milliseconds(1000 / SECOND * cycle)?;
+        // The period after the loss comes 1 ms late, which a dt_max of two periods alone would not bear.
+        let late = i64::from(cycle == LOST + 1);
+        let now = Time::from_milliseconds(1000 / SECOND * cycle + late)?;
         let world = World::at(now);
 
         // What came over the network since the last period, and time itself.
@@ -74,11 +78,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
 
         // What the CAV measured and planned itself.
-        let (detections, own_plan) = (world.detections(), world.trajectory());
-        let mut inputs = Inputs::new(now, world.ego)
-            .detections(now, &detections)
-            .lead(now, Gap::between_bumpers(world.gap), 5.0)
-            .local_trajectory(now, &own_plan);
+        // A planner that stands has no plan, also in the period in which it is told to start.
+        let detections = world.detections();
+        let own_plan = (!station.planner_stands).then(|| world.trajectory());
+        let mut inputs = Inputs::new(now, world.ego).detections(now, &detections).lead(
+            now,
+            Gap::between_bumpers(world.gap),
+            5.0,
+        );
+        if let Some(own_plan) = &own_plan {
+            inputs = inputs.local_trajectory(now, own_plan);
+        }
         if let Some(tracks) = &tracks {
             inputs = inputs.remote_tracks(tracks);
         }
@@ -88,28 +98,27 @@ fn main() -> Result<(), Box<dyn Error>> {
 
         // The one way to what the station sent.
         let (decision, actions) = monitor.cycle(&inputs);
-        if cycle == LOST && !matches!(decision, Decision::Safe { trajectory: Some(_), .. }) {
+        let has_trajectory = matches!(decision, Decision::Safe { trajectory: Some(_), .. });
+        if (LOST..LOST + 2).contains(&cycle) && !has_trajectory {
             return Err("a lost message was not bridged".into());
         }
-        match decision {
-            Decision::Safe { trajectory: Some(trajectory), .. } => {
-                (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());
-                driven.push(follow(trajectory));
-            }
-            Decision::Safe { trajectory: None, .. } if !station.planner_stands => {
-                driven.push(first(&own_plan));
-            }
-            Decision::Safe { trajectory: None, .. } => {
-                let brakes = brake_by.is_some_and(|by| by <= now);
-                driven.push(if brakes { None } else { first(&kept) });
-            }
-            Decision::Unsafe { report, .. } => {
-                let why = report.map(|report| report.failed_stage);
-                println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
-                driven.push(first(&own_plan));
-                fallbacks += 1;
-            }
+        if let Decision::Unsafe { report, .. } = &decision {
+            let why = report.as_ref().map(|report| report.failed_stage);
+            println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
+            fallbacks += 1;
         }
+        driven.push(match (decision, &own_plan) {
+            (Decision::Safe { trajectory: Some(trajectory), .. }, _) => {
+                (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());
+                follow(trajectory)
+            }
+            (_, Some(own_plan)) => first(own_plan),
+            (_, None) if brake_by.is_some_and(|by| now.checked_add(BUILD_UP) >= Some(by)) => None,
+            (_, None) => {
+                copied += 1;
+                first(&kept)
+            }
+        });
         station.take(&actions);
         // What this program seems to get wrong: nothing.
         if let Some(advice) = monitor.advice() {
@@ -119,8 +128,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
         }
     }
-    if fallbacks != 1 || monitor.configuration() != Configuration::AllRemote {
-        return Err(format!("{fallbacks} fallbacks, {:?}", monitor.configuration()).into());
+    if fallbacks != 1 || copied != 1 || monitor.configuration() != Configuration::AllRemote {
+        let configuration = monitor.configuration();
+        return Err(format!("{fallbacks} fallbacks, {copied} copies, {configuration:?}").into());
     }
     println!("{} points driven, one fallback, offloading again", driven.len());
     Ok(())

@@ -23,8 +23,9 @@
 //! use mufasa::monitor::{Arrival, Decision, Inputs, Memory, Message, Monitor, Settings, Time};
 //! use mufasa::offloading::requester::{Action, Group, Groups, StationRecord};
 //!
-//! // Results come at 20 Hz; `dt_max`, 100 ms by default, has to be above the period.
 //! let mut settings = Settings::new(Duration::from_millis(50));
+//! // Two periods and the largest jitter: one lost message ends no session. The default, 100 ms, leaves no jitter.
+//! settings.requester.dt_max_ns = 120_000_000;
 //! // From the measurement to full braking: the default, 0.1 s, is too short at 20 Hz.
 //! settings.stages.tau = 0.25;
 //! let memory = Memory {
@@ -107,7 +108,8 @@
 //!             // copy, and by its `brake_by` it brakes. Where that lasts, the session ends as for silence.
 //!         }
 //!         Decision::Unsafe { report, .. } => {
-//!             // The local services go on, and nothing of the station is used.
+//!             // Nothing of the station is used. The CAV's own plan is driven; until its planner, which was just
+//!             // told to start, has one, the copy of the last verified trajectory, by its `brake_by` braking.
 //!             panic!("{report:?}, to be done: {actions:?}");
 //!         }
 //!     }

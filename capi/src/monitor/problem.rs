@@ -2,6 +2,7 @@
 
 use core::ffi::c_char;
 
+use mufasa::input::parameters::Parameters;
 use mufasa::monitor::{MonitorError, Unusual};
 use mufasa::offloading::requester::{Requester, RequesterError};
 use mufasa::report::InvalidInput;
@@ -17,7 +18,7 @@ use crate::status::MufasaStatus;
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaSettingsProblem {
-    /// Dotted path of the field, such as stages.a_b.
+    /// Dotted path of the field; parameters.a_b is `stages.a_b`.
     pub field: [c_char; MUFASA_TEXT_BYTES],
     /// What is wrong and what would be right.
     pub message: [c_char; MUFASA_TEXT_BYTES],
@@ -93,7 +94,10 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         });
     };
     let told = match error {
-        MonitorError::Stages(InvalidInput { field, problem, .. }) => told(field, problem.message()),
+        MonitorError::Stages(InvalidInput { field, problem, .. }) => {
+            let [value, least, most] = numbers(field, &made.stages);
+            MufasaSettingsProblem { value, least, most, ..told(field, problem.message()) }
+        }
         MonitorError::Requester(RequesterError::NegativeParameter { field }) => {
             told(field, "below 0; give nanoseconds from 0 to 2^63 - 1")
         }
@@ -116,7 +120,10 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         MonitorError::DtMaxNotAbovePeriod { dt_max_ns, .. } => MufasaSettingsProblem {
             value: number(dt_max_ns),
             least: number(settings.period_ns),
-            ..told("requester.dt_max_ns", "not above period_ns; give that and its largest jitter")
+            ..told(
+                "requester.dt_max_ns",
+                "not above period_ns; give two periods and the largest jitter, to bear one lost message",
+            )
         },
         MonitorError::TauNotAbovePeriod { tau, period } => {
             let message = "not above period_ns; give that and the time from the next cycle to full braking, s";
@@ -157,6 +164,24 @@ fn told(field: &str, message: &str) -> MufasaSettingsProblem {
     let (field, message) = (report::text(field), report::text(message));
     MufasaSettingsProblem { field, message, value: f64::NAN, least: f64::NAN, most: f64::NAN }
 }
+
+macro_rules! of_parameters {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in [$least:expr, $most:expr];)*) => {
+        /// What was given of a parameter with this path, and the ends of its domain.
+        #[expect(clippy::cast_precision_loss, reason = "for people to read")]
+        #[allow(clippy::unnecessary_cast, reason = "some are integers")]
+        fn numbers(field: &str, parameters: &Parameters) -> [f64; 3] {
+            match field {
+                $(concat!("parameters.", stringify!($name)) => {
+                    [parameters.$name as f64, $least as f64, $most as f64]
+                })*
+                _ => [f64::NAN; 3],
+            }
+        }
+    };
+}
+
+mufasa::parameters!(of_parameters);
 
 /// The name that the period has here.
 fn period_ns(field: &str) -> &str {

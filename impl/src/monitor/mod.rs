@@ -2,7 +2,7 @@
 //!
 //! [`Monitor`] owns what has to live between cycles: the requester, the CAV's own earlier detections,
 //! the route with its index, scratch. Events go in, and actions come out; remote data come out of
-//! [`Monitor::cycle`] alone, and only when it is safe. The functions beneath, [`crate::stages::check`] and
+//! [`Monitor::cycle`] alone, and only when it is safe. The functions beneath, [`crate::cycle::check`] and
 //! [`crate::offloading::requester::Requester::step`], answer the same, and leave it to the caller to
 //! bring them together.
 //!

@@ -340,7 +340,8 @@ impl fmt::Display for MonitorError {
             Self::DtMaxNotAbovePeriod { dt_max_ns, period } => write!(
                 f,
                 "settings.requester.dt_max_ns = {dt_max_ns} is not above settings.period = {} ns, \
-                 so that any jitter ends the session; give the period and its largest jitter",
+                 so that any jitter ends the session; give two periods and the largest jitter, with \
+                 which one lost message ends no session, or at least the period and that jitter",
                 period.as_nanos()
             ),
             Self::TauNotAbovePeriod { tau, period } => write!(

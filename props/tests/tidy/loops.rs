@@ -11,6 +11,17 @@ const PERIODS: [(&str, [&str; 2]); 6] = [
     ("lab/python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
     ("lab/python/README.md", ["timedelta(milliseconds=", ")"]),
 ];
+/// How each writes its dt_max of so many milliseconds.
+const DT_MAX: [(&str, [&str; 2]); 6] = [
+    ("impl/examples/vehicle.rs", ["dt_max_ns = ", "_000_000;"]),
+    ("impl/src/lib.rs", ["dt_max_ns = ", "_000_000;"]),
+    ("capi/examples/vehicle.c", ["dt_max_ns = ", " * MS;"]),
+    ("capi/README.md", ["dt_max_ns = ", "000000;"]),
+    ("lab/python/examples/vehicle.py", ["\"dt_max_ns\": ", "_000_000"]),
+    ("lab/python/README.md", ["\"dt_max_ns\": ", "_000_000"]),
+];
+const DT_MAX_ADVICE: (&str, [&str; 2]) =
+    ("docs/configuration.md", ["two periods and the largest jitter, ", " ms say"]);
 const ADVICE: (&str, [&str; 2]) =
     ("docs/configuration.md", ["| period of the cycle and of the results | ", " ms |"]);
 /// What a page says of a loop, whoever writes it anew.
@@ -21,15 +32,16 @@ const SAID: [(&str, &str); 4] = [
     ("impl/README.md", "`docs/configuration.md`"),
 ];
 
-/// Loops with another period than the documents advise.
+/// Loops with another period, or another dt_max, than the documents advise.
 pub fn periods(tree: &Tree) -> Vec<(String, String)> {
-    let (page, marks) = ADVICE;
-    let advised = between(tree, page, marks);
     let mut wrong = Vec::new();
-    for (path, marks) in PERIODS {
-        let own = between(tree, path, marks);
-        if own.is_none() || own != advised {
-            wrong.push((path.to_owned(), format!("a period of {own:?} ms, advised {advised:?}")));
+    for ((page, marks), loops) in [(ADVICE, PERIODS), (DT_MAX_ADVICE, DT_MAX)] {
+        let advised = between(tree, page, marks);
+        for (path, marks) in loops {
+            let own = between(tree, path, marks);
+            if own.is_none() || own != advised {
+                wrong.push((path.to_owned(), format!("{own:?} ms, advised {advised:?}")));
+            }
         }
     }
     wrong
@@ -65,7 +77,8 @@ fn another_period_and_what_is_left_out_are_seen() {
     change("capi/examples/vehicle.c", "PERIOD_MS 50", "PERIOD_MS 100");
     change("capi/README.md", "take(&decision.actions);", "status = mufasa_monitor_cycle();");
     let named = |found: Vec<(String, String)>| found.into_iter().map(|it| it.0).collect::<Vec<_>>();
-    assert_eq!(named(periods(&tree)), ["capi/examples/vehicle.c"]);
+    change("capi/README.md", "dt_max_ns = 120", "dt_max_ns = 100");
+    assert_eq!(named(periods(&tree)), ["capi/examples/vehicle.c", "capi/README.md"]);
     assert_eq!(left_out(&tree).len(), 2);
     assert_eq!(named(left_out(&tree)), ["capi/README.md"; 2]);
 }
