@@ -13,7 +13,7 @@ use crate::clock::SharedClock;
 use crate::message::EncodeError;
 use crate::play::Played;
 use crate::station::{Station, StationSummary};
-use crate::transport::Transport;
+use crate::transport::{Health, Transport};
 use crate::vehicle::memory::lent;
 use crate::vehicle::summary::Tally;
 use crate::vehicle::{Vehicle, VehicleError};
@@ -62,7 +62,7 @@ impl VehicleRun {
     }
 }
 
-/// Runs a station until `stop` is set.
+/// Runs a station until `stop` is set. `heard` is told how its transport does, after each step.
 ///
 /// It replays the `offered` drive, which may be attacked; of what that and the clean one have in common it asks
 /// the stages before, with the settings of the vehicle, if they are given.
@@ -75,6 +75,7 @@ pub fn station(
     clock: SharedClock,
     transport: &mut impl Transport,
     stop: &AtomicBool,
+    heard: &mut dyn FnMut(&Health),
 ) -> Result<StationSummary, EncodeError> {
     let mut station = Station::new(id, offered, transport)?;
     if let Some(settings) = asks {
@@ -82,6 +83,7 @@ pub fn station(
     }
     while !stop.load(Ordering::Relaxed) {
         let due_ns = station.step(clock.now_ns());
+        heard(&station.health());
         station.wait(until(due_ns, clock));
     }
     Ok(station.end(clock.now_ns()))
@@ -105,7 +107,7 @@ pub fn both(
     thread::scope(|scope| {
         let serving = scope.spawn(|| {
             let asks = asks.then_some(&run.settings);
-            station(station_id, [driven, offered], asks, clock, of_station, &has_ended)
+            station(station_id, [driven, offered], asks, clock, of_station, &has_ended, &mut |_| ())
         });
         let driven = run.run(driven, clock, of_vehicle, tally, stop);
         has_ended.store(true, Ordering::Relaxed);

@@ -254,6 +254,11 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
     let drives = drive::streams(&arguments.files, &options);
     let drives: Vec<_> = drives.into_iter().map(|drive| drive.and_then(attacked)).collect();
     let findings = check::run(&drives, &settings, out, &mut io::stderr())?;
+    if arguments.svg.is_some() && findings.pictures == 0 {
+        complain(
+            "no picture: each shows a cycle that a stage fails, and there is none (--inject makes some)",
+        );
+    }
     Ok(findings.exit_code())
 }
 

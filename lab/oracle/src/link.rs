@@ -21,7 +21,7 @@ use mufasa_link::traffic::{Counts, Traffic};
 use mufasa_link::transport::amqp::Amqp;
 use mufasa_link::transport::channels::Hub;
 use mufasa_link::transport::disturbed::Disturbed;
-use mufasa_link::transport::{Address, Transport};
+use mufasa_link::transport::{Address, Health, Transport};
 use mufasa_link::vehicle::log::{Entry, What};
 use mufasa_link::vehicle::summary::{Listener, Spread, Summary, Tally};
 use mufasa_model::offloading::requester;
@@ -113,7 +113,22 @@ pub fn station(
         });
     }
     let clock = SharedClock::new().map_err(said)?;
-    let served = run::station(arguments.id, [&clean, &played], asks, clock, &mut broker, stop);
+    let mut was = broker.health();
+    let began = Instant::now();
+    let mut heard = |now: &Health| {
+        let before = std::mem::replace(&mut was, now.clone());
+        if before.connected != now.connected && !progress::is_quiet() {
+            let what = What::Link {
+                connected: now.connected,
+                connections: now.connections,
+                error: now.last_error.clone(),
+            };
+            let told = what.change().unwrap_or_default();
+            complain(&format!("{:.1} s: {told}", began.elapsed().as_secs_f64()));
+        }
+    };
+    let plays = [&clean, &played];
+    let served = run::station(arguments.id, plays, asks, clock, &mut broker, stop, &mut heard);
     let summary = served.map_err(said)?;
     write_json(arguments.json.as_deref(), &summary)?;
     writeln!(out, "{}", of_station(&summary).trim_fmt())?;
@@ -321,7 +336,7 @@ fn spread(Spread { count, p50_us, p99_us, max_us }: Spread) -> String {
 
 fn connections(count: u64, last_error: Option<&str>) -> String {
     match last_error {
-        Some(error) => format!("{count}; {error}"),
+        Some(error) => format!("{count}; the last error: {error}"),
         None => count.to_string(),
     }
 }

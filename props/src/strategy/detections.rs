@@ -17,7 +17,10 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     obstacle::widen(&mut cycle, frame);
     if draw.below(3) > 0 {
-        let speed = draw.pick(&[0.0, 2.0, 5.0, 8.0, 12.0, 16.0]);
+        let mut speed = draw.pick(&[0.0, 2.0, 5.0, 8.0, 12.0, 16.0]);
+        if cycle.ego.speed > 16.0 {
+            speed = (draw.range(0.1, 1.1) * cycle.ego.speed).min(150.0);
+        }
         let stamp_ns = cycle.now_ns - draw.pick(&[0, 50_000_000]);
         cycle.lead = Some(Lead { stamp_ns, gap: 1000.0, speed });
         if draw.below(3) == 0 {

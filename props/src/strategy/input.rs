@@ -1,7 +1,7 @@
 //! Values at and beyond the borders of the domain, and lists that break a rule
 //! (`spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`).
 
-use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
 use mufasa_model::input::domain::{Problem, first_problem};
 
 use super::base;
@@ -38,6 +38,14 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     if cycle.detections.as_ref().is_some_and(|list| list.items.is_empty()) {
         let item = track_validation::detection(frame, (8.0, 9.0));
         cycle.detections.iter_mut().for_each(|list| list.items = vec![item.clone()]);
+    }
+    if draw.one_in(4)
+        && let Some(list) = cycle.detections.clone()
+    {
+        // The items of each list have to be valid.
+        let earlier =
+            |i: i64| DetectionList { stamp_ns: list.stamp_ns - i * 250_000_000, ..list.clone() };
+        cycle.detection_history = (1..=4).map(earlier).collect();
     }
     let most = if draw.one_in(4) { 2 } else { 1 };
     for _ in 0..most {

@@ -103,6 +103,10 @@ pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> O
     let (now_ns, ego) = (cycle.now_ns, cycle.ego.clone());
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
     let zigzag = !hardened && draw.one_in(3);
+    let pace = 1.0 / speed.max(0.5);
+    // H-11 does not let a trajectory take so long.
+    let slowly = if !hardened && draw.one_in(4) { draw.range(0.0, 6.0).exp2() } else { 1.0 };
+    let pace = pace * slowly.min(50.0 / (reach * pace)).max(1.0);
     let Some(trajectory) = &mut cycle.trajectory else {
         return touching(draw, cycle);
     };
@@ -118,7 +122,7 @@ pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> O
         let step = reach / steps as f64;
         let (along, aside) = if zigzag { (0.96 * arc, 0.28 * step * slant(i)) } else { (arc, 0.0) };
         let (x, y) = road.at(along, aside);
-        let t_ns = now_ns + to_ns(arc / speed.max(0.5));
+        let t_ns = now_ns + to_ns(arc * pace);
         let Frame { cos, sin, .. } = road;
         trajectory.points.push(TrajectoryPoint { t_ns, x, y, cos, sin });
     }
@@ -195,5 +199,6 @@ fn obstacle(
 
 /// A road so wide that no trajectory of these generators leaves it.
 pub fn widen(cycle: &mut Cycle, frame: Frame) {
-    cycle.route = base::road(frame, 6.0);
+    let end = base::end_of_road(&cycle.ego, &cycle.parameters);
+    cycle.route = base::road_to(frame, 6.0, end);
 }

@@ -119,7 +119,7 @@ fn enlarge(draw: &mut Draw<'_>, cycle: &mut Cycle, part: Part) {
 
 /// A size on a log scale: a power of two or beside it, the largest, or any.
 fn size(draw: &mut Draw<'_>, most: usize) -> usize {
-    let power = 1 << draw.between(1, log(most));
+    let power = 1 << draw.between(1, log(most).max(1));
     let size = match draw.below(8) {
         0 => most,
         1..=3 => power + draw.below(3) - 1,

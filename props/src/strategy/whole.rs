@@ -21,7 +21,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         12 => fail_safe::cycle(draw, profile),
         _ => schedule::cycle(draw, profile),
     };
-    if draw.one_in(8) {
+    if draw.one_in(12) {
         cycle.configuration = draw.pick(&[
             Configuration::AllRemote,
             Configuration::MotRemote,

@@ -61,9 +61,18 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
         let is_solution = order::is_solution(&mut source);
         let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;
-        // What cannot be read is between nothing; a solution that cannot be used is no reason to drive another way.
-        if let (Err(_), true, Some((_, _, used))) = (&content, is_solution, &mut scenario) {
+        // What cannot be read may be the solution of the scenario before it, which is no reason to drive another way.
+        if let (Err(_), Some((file, _, used))) = (&content, &mut scenario)
+            && !*used
+        {
             *used = true;
+            if !is_solution {
+                let words = format!(
+                    "left out: {}, named behind it, cannot be read, and may be its solution; without one name it alone",
+                    path.display()
+                );
+                drives.push(Err(ReadError::file(file, words)));
+            }
         }
         if !matches!(content, Ok(Content::Solution(_)) | Err(_)) {
             drives.extend(unsolved(scenario.take(), options));

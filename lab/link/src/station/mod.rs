@@ -21,7 +21,7 @@ use self::replay::Replay;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
 use crate::traffic::Traffic;
-use crate::transport::{Address, Transport};
+use crate::transport::{Address, Health, Transport};
 
 /// Sessions that it runs at the same time.
 const CAPACITY: usize = 8;
@@ -106,6 +106,11 @@ impl<'a, T: Transport> Station<'a, T> {
     /// Waits until something arrives, at most so long.
     pub fn wait(&mut self, at_most: Duration) {
         self.transport.wait(at_most);
+    }
+
+    /// How its transport does.
+    pub fn health(&self) -> Health {
+        self.transport.health()
     }
 
     /// Withdraws what it offers. Returns what it did.

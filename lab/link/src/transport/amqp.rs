@@ -19,6 +19,7 @@ use fe2o3_amqp::types::definitions::SenderSettleMode;
 use fe2o3_amqp::types::messaging::{Body, Data, Header, Message, Properties};
 use fe2o3_amqp::types::primitives::Value;
 use fe2o3_amqp::types::sasl::SaslCode;
+use percent_encoding::percent_decode_str;
 use tokio::net::TcpStream;
 use tokio::sync::mpsc;
 use tokio::time;
@@ -68,6 +69,14 @@ pub enum AmqpError {
         /// What was given, without user and password.
         url: String,
     },
+    /// An address with a virtual host.
+    #[error(
+        "{url:?} names a virtual host, which is not supported: leave out what follows the port"
+    )]
+    VirtualHost {
+        /// What was given, without user and password.
+        url: String,
+    },
     /// An address with TLS.
     #[error(
         "amqps: this program has no TLS; start a TLS tunnel to the broker, as scripts/link-tls does, and give the \
@@ -90,7 +99,11 @@ impl Amqp {
             return Err(AmqpError::Tls);
         }
         let parsed = Url::parse(url).ok().filter(|it| it.scheme() == "amqp" && it.has_host());
-        let url = parsed.ok_or_else(|| AmqpError::Url { url: without_password(url) })?;
+        let given = || without_password(url);
+        let url = parsed.ok_or_else(|| AmqpError::Url { url: given() })?;
+        if !matches!(url.path(), "" | "/") {
+            return Err(AmqpError::VirtualHost { url: given() });
+        }
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(AmqpError::System)?;
         let inbox = Queue::default();
@@ -139,7 +152,7 @@ impl Transport for Amqp {
 async fn keep_connected(url: &Url, me: Address, inbox: &Queue, mut sent: mpsc::Receiver<Sent>) {
     while let Err(error) = connected(url, me, inbox, &mut sent).await {
         inbox.note(|health| {
-            (health.connected, health.last_error) = (false, Some(error.to_string()));
+            (health.connected, health.last_error) = (false, Some(plain(&error.to_string())));
         });
         if sent.is_closed() {
             return;
@@ -163,8 +176,10 @@ async fn connected(
         stream.set_nodelay(true)?;
         let mut builder = Connection::builder().container_id(name.as_str()).scheme("amqp");
         builder = builder.hostname(url.host_str()).idle_time_out(SILENT_MS);
-        if let Ok(profile) = SaslProfile::try_from(url) {
-            builder = builder.sasl_profile(profile);
+        if let Some(password) = url.password() {
+            let [user, password] = [url.username(), password].map(percent_decode_str);
+            let [user, password] = [user, password].map(|it| it.decode_utf8_lossy().into_owned());
+            builder = builder.sasl_profile(SaslProfile::from((user, password)));
         }
         let mut connection = builder.open_with_stream(stream).await.map_err(in_words)?;
         let mut session = Session::begin(&mut connection).await?;
@@ -220,6 +235,18 @@ fn in_words(error: OpenError) -> String {
         }
         error => error.to_string(),
     }
+}
+
+/// What the library says, without its types.
+fn plain(error: &str) -> String {
+    if let Some((_, behind)) = error.split_once("description: Some(\"") {
+        let description = behind.split('"').next().unwrap_or_default();
+        return format!("the broker says: {description}");
+    }
+    if error.contains("ConnectionStopped") {
+        return "the broker has closed the connection".to_owned();
+    }
+    error.to_owned()
 }
 
 /// Sends what is handed over, until nobody hands over anything any more.
@@ -283,8 +310,24 @@ mod tests {
         let with_password = Amqp::new("http://guest:secret@host", Address::Vehicle(1)).unwrap_err();
         let words = with_password.to_string();
         assert!(words.contains("...@host") && !words.contains("secret"), "{words}");
+        let elsewhere =
+            Amqp::new("amqp://guest:secret@host:5672/vh", Address::Vehicle(1)).unwrap_err();
+        assert!(
+            elsewhere.to_string().contains("\"...@host:5672/vh\" names a virtual host"),
+            "{elsewhere}"
+        );
         let tls = Amqp::new("amqps://guest:secret@localhost", Address::Vehicle(1)).unwrap_err();
         assert!(tls.to_string().contains("has no TLS"), "{tls}");
+    }
+
+    #[test]
+    fn errors_are_told_without_the_types_of_the_library() {
+        let closed = "Local error: SessionStopped(ConnectionStopped(Closed))";
+        assert_eq!(plain(closed), "the broker has closed the connection");
+        let refused = "RemoteEndedWithError(Error { condition: AmqpError(UnauthorizedAccess), description: \
+                       Some(\"ACCESS_REFUSED - access to queue refused\"), info: None })";
+        assert_eq!(plain(refused), "the broker says: ACCESS_REFUSED - access to queue refused");
+        assert_eq!(plain("Connection refused (os error 111)"), "Connection refused (os error 111)");
     }
 
     #[test]
