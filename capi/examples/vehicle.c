@@ -13,6 +13,7 @@
 #define PERIOD_MS 50
 #define SECOND (1000 / PERIOD_MS) /* cycles */
 #define CYCLES (20 * SECOND)
+#define BUILD_UP (100 * MS) /* from the command to full braking, the vehicle's own */
 #define LOST (2 * SECOND) /* the cycle whose messages are lost */
 #define CARS 2
 #define POINTS 30
@@ -20,6 +21,7 @@
 
 /* What the station was asked for: the sessions of MOT and PLAN, 0 for none. */
 static int64_t asked[2], running[2];
+static int planner_stands; /* whether the CAV's own planner is stopped */
 static size_t fallbacks;
 
 static void check(MufasaStatus status, const char *what) {
@@ -36,8 +38,14 @@ static void take(const struct MufasaActions *actions) {
     switch (action->action_type) {
       case MUFASA_ACTION_TYPE_REQUEST: asked[plan] = action->session; break;
       case MUFASA_ACTION_TYPE_RELEASE: running[plan] = 0; break;
-      case MUFASA_ACTION_TYPE_ACTIVATE: printf("        local %s starts\n", plan ? "PLAN" : "MOT"); break;
-      case MUFASA_ACTION_TYPE_DEACTIVATE: printf("        local %s stops\n", plan ? "PLAN" : "MOT"); break;
+      case MUFASA_ACTION_TYPE_ACTIVATE:
+        printf("        local %s starts\n", plan ? "PLAN" : "MOT");
+        if (plan) planner_stands = 0;
+        break;
+      case MUFASA_ACTION_TYPE_DEACTIVATE:
+        printf("        local %s stops\n", plan ? "PLAN" : "MOT");
+        if (plan) planner_stands = 1;
+        break;
       case MUFASA_ACTION_TYPE_DROP: break; /* an element that the monitor did not take */
     }
   }
@@ -134,7 +142,9 @@ int main(void) {
       MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH;
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
-  size_t offloaded = 0;
+  size_t offloaded = 0, copied = 0;
+  struct MufasaTrajectoryPoint kept; /* of the last verified trajectory: here its first point */
+  memset(&kept, 0, sizeof kept);
   struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of the last verified trajectory */
   for (int cycle = 0; cycle < CYCLES; ++cycle) {
     /* The period after the loss comes 1 ms late, which a dt_max of two periods alone would not bear. */
@@ -161,6 +171,9 @@ int main(void) {
     struct world w;
     look(&w, now, cycle >= 4 * SECOND && cycle < 5 * SECOND ? 3.0 : 0.0);
     if (cycle != LOST) receive(monitor, now, &w);
+    /* A planner that stands has no plan, also in the period in which it is told to start. */
+    const int has_plan = !planner_stands;
+    if (!has_plan) w.inputs.local_trajectory = NULL;
 
     /* The one way to what the station sent. */
     struct MufasaDecision decision;
@@ -172,12 +185,16 @@ int main(void) {
              mufasa_failed_stage_text(decision.report.failed_stage));
       ++fallbacks;
     }
-    /* Without one the vehicle drives its own plan, or, where its planner is stopped, the last verified
-       trajectory, of which it keeps a copy with its brake_by: by then it brakes fully along it. */
     if ((cycle == LOST || cycle == LOST + 1) && decision.trajectory == NULL) return 1; /* it goes on with the one before */
     if (decision.trajectory != NULL) {
       ++offloaded;
       brake_by = decision.brake_by;
+      kept = decision.trajectory->points[0]; /* control needs all of it; until the next call it can be read there */
+    } else if (!has_plan && now.ns + BUILD_UP < brake_by.ns) {
+      /* No other is there, also after an unsafe cycle: it drives the copy of the last verified one. By its brake_by the
+         CAV brakes fully; control, which runs more often than cycles do, looks at that time itself. */
+      ++copied;
+      if (kept.t.ns == 0) return 1;
     }
     /* What this program seems to get wrong: nothing. */
     if (decision.advice != MUFASA_ADVICE_NONE) {
@@ -190,5 +207,5 @@ int main(void) {
   free(monitor);
   /* The last cycle was offloaded. */
   const int64_t covered_ns = brake_by.ns - PERIOD_MS * MS * (CYCLES - 1);
-  return fallbacks == 1 && offloaded > 160 && covered_ns == 250 * MS ? 0 : 1;
+  return fallbacks == 1 && copied == 1 && offloaded > 160 && covered_ns == 250 * MS ? 0 : 1;
 }

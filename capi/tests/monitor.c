@@ -220,6 +220,7 @@ static void what_contradicts_itself_is_told_once(void) {
   }
   lead.speed = 0;
   EXPECT(told == 1 && strlen(mufasa_advice_text(MUFASA_ADVICE_LEAD_SPEED)) > 20);
+  EXPECT(strstr(mufasa_failed_stage_text(MUFASA_FAILED_STAGE_III), "stage iii,") != NULL);
 }
 
 static void events_that_are_not_for_the_caller(void) {

@@ -113,7 +113,12 @@ fn main() -> Result<(), Box<dyn Error>> {
                 follow(trajectory)
             }
             (_, Some(own_plan)) => first(own_plan),
-            (_, None) if brake_by.is_some_and(|by| now.checked_add(BUILD_UP) >= Some(by)) => None,
+            (_, None)
+                if brake_by
+                    .is_some_and(|by| now.checked_add(BUILD_UP).is_none_or(|at| at >= by)) =>
+            {
+                None
+            }
             (_, None) => {
                 copied += 1;
                 first(&kept)

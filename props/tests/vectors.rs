@@ -146,8 +146,8 @@ fn decided(record: &Record, profile: Profile) -> Option<String> {
     }
 }
 
-/// A rule closes a finding when one of its vectors is decided as `hardened` does by the rule beside the paper alone,
-/// or as `paper` does without it; `hardened` and `paper` differ there.
+/// A finding is in the row of a rule only when one of its vectors, about which the profiles differ, is decided as
+/// `hardened` does by the rule beside the paper alone, or as `paper` does without it.
 #[test]
 fn each_rule_closes_the_findings_of_its_row() {
     let alone = |rule: HardenedRule| {

@@ -168,8 +168,7 @@ fn told(field: &str, message: &str) -> MufasaSettingsProblem {
 macro_rules! of_parameters {
     ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in [$least:expr, $most:expr];)*) => {
         /// What was given of a parameter with this path, and the ends of its domain.
-        #[expect(clippy::cast_precision_loss, reason = "for people to read")]
-        #[allow(clippy::unnecessary_cast, reason = "some are integers")]
+        #[expect(clippy::cast_precision_loss, reason = "bounds, for people to read")]
         fn numbers(field: &str, parameters: &Parameters) -> [f64; 3] {
             match field {
                 $(concat!("parameters.", stringify!($name)) => {

@@ -117,7 +117,9 @@ pub fn station(
     let began = Instant::now();
     let mut heard = |now: &Health| {
         let before = std::mem::replace(&mut was, now.clone());
-        if before.connected != now.connected && !progress::is_quiet() {
+        if (before.connected, before.connections) != (now.connected, now.connections)
+            && !progress::is_quiet()
+        {
             let what = What::Link {
                 connected: now.connected,
                 connections: now.connections,

@@ -28,6 +28,18 @@ pub fn invalid(problem: Problem) -> PyErr {
     classes::InvalidInput::new_err((field, index, message))
 }
 
+/// The problem of a parameter that there is not, with the one whose name has the unit, if it is that.
+pub fn named(problem: Problem) -> Problem {
+    let name = problem.field.rsplit('.').next().unwrap_or_default();
+    let with_unit = format!("{name}_ns");
+    if !mufasa_records::record::parameters::names().contains(&with_unit) {
+        return problem;
+    }
+    let message =
+        format!("there is no such parameter; {with_unit}, an integer in nanoseconds, is one");
+    Problem { message, ..problem }
+}
+
 /// A problem of a field that is in no list.
 pub fn wrong(field: &str, message: impl Into<String>) -> Problem {
     Problem { field: field.to_owned(), index: None, message: message.into() }

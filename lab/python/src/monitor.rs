@@ -21,7 +21,7 @@ use crate::arguments::{
     Station, StepPs, in_domain,
 };
 use crate::decision::Decision;
-use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, no_monitor, wrong};
+use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, named, no_monitor, wrong};
 use crate::inputs::{Given, Own};
 use crate::items;
 use crate::place::Place;
@@ -85,7 +85,8 @@ impl Monitor {
             let json = json.map_err(|error| in_domain(parameters, "parameters", error))?;
             let object = serde_json::from_str(&json.extract::<String>()?)
                 .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
-            let (stages, requester) = record::parameters::settings(object).map_err(invalid)?;
+            let (stages, requester) =
+                record::parameters::settings(object).map_err(|it| invalid(named(it)))?;
             settings.stages = bridge::cycle_parameters(&stages);
             settings.requester = bridge::parameters_to_impl(&requester);
         }

@@ -358,6 +358,12 @@ def test_settings_that_no_monitor_can_keep(settings: dict[str, Any], field: str)
     assert error.value.field == field
 
 
+def test_a_parameter_without_its_unit_is_told_with_it() -> None:
+    with pytest.raises(InvalidInput) as error:
+        Scene.monitor(parameters={"dt_max": 0.15})
+    assert "dt_max_ns" in str(error.value)
+
+
 def test_a_period_is_a_time_above_0() -> None:
     with pytest.raises(InvalidInput) as error:
         mufasa.Monitor(timedelta(0))

@@ -124,7 +124,7 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
     parameters
 }
 
-/// Constant speed along the frame's axis until `v_now` / `a_b`, in steps that H-11 accepts.
+/// Constant speed along the frame's axis until `v_now` / `a_b`, below 40 m/s in steps that H-11 accepts.
 pub fn straight(ego: &Ego, frame: Frame, now_ns: i64, parameters: &Parameters) -> Trajectory {
     let is_town = ego.speed > 0.0 && ego.speed < 40.0;
     let step_s = if is_town { (0.9 * ego.length / ego.speed).min(0.2) } else { 0.2 };

@@ -197,7 +197,7 @@ fn obstacle(
     Obstacle { frame: Frame { x, y, cos, sin }, size, point: 0, away: ego.turn(away) }
 }
 
-/// A road so wide that no trajectory of these generators leaves it.
+/// A road so wide that no trajectory of these generators leaves it, except for fast zigzags.
 pub fn widen(cycle: &mut Cycle, frame: Frame) {
     let end = base::end_of_road(&cycle.ego, &cycle.parameters);
     cycle.route = base::road_to(frame, 6.0, end);

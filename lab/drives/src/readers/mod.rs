@@ -51,40 +51,39 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
     streams(paths, options).into_iter().map(|drive| drive.and_then(Stream::collect)).collect()
 }
 
+/// Whether a solution of a scenario was named.
+enum Solved {
+    No,
+    Yes,
+    /// This file cannot be read.
+    Perhaps(PathBuf),
+}
+
 /// Reads drives from files as [`read`] does, and makes their cycles when they are asked for.
 pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadError>> {
     let mut drives = Vec::new();
-    // The scenario last read, and whether a drive was made of it.
-    let mut scenario: Option<(PathBuf, Scenario, bool)> = None;
+    // The scenario last read, and whether a solution of it was named.
+    let mut scenario: Option<(PathBuf, Scenario, Solved)> = None;
     let spool = Arc::new(Spool::default());
     for mut source in order::solutions_behind_scenarios(Source::all(paths)) {
         let is_solution = order::is_solution(&mut source);
         let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;
         // What cannot be read may be the solution of the scenario before it, which is no reason to drive another way.
-        if let (Err(_), Some((file, _, used))) = (&content, &mut scenario)
-            && !*used
-        {
-            *used = true;
-            if !is_solution {
-                let words = format!(
-                    "left out: {}, named behind it, cannot be read, and may be its solution; without one name it alone",
-                    path.display()
-                );
-                drives.push(Err(ReadError::file(file, words)));
-            }
+        if let (Err(_), Some((_, _, solved @ Solved::No))) = (&content, &mut scenario) {
+            *solved = if is_solution { Solved::Yes } else { Solved::Perhaps(path.clone()) };
         }
         if !matches!(content, Ok(Content::Solution(_)) | Err(_)) {
             drives.extend(unsolved(scenario.take(), options));
         }
         match content {
             Ok(Content::Scenario(text)) => match scenario::read(path, &text) {
-                Ok(read) => scenario = Some((source.path, read, false)),
+                Ok(read) => scenario = Some((source.path, read, Solved::No)),
                 Err(error) => drives.push(Err(error)),
             },
             Ok(Content::Solution(text)) => drives.push(match &mut scenario {
-                Some((file, scenario, used)) => {
-                    *used = true;
+                Some((file, scenario, solved)) => {
+                    *solved = Solved::Yes;
                     solution::read(path, &text)
                         .and_then(|s| commonroad::solved(scenario, &s, [file, path], options))
                 }
@@ -126,11 +125,19 @@ fn name_apart(drives: &mut [Result<Stream, ReadError>]) {
 }
 
 fn unsolved(
-    scenario: Option<(PathBuf, Scenario, bool)>,
+    scenario: Option<(PathBuf, Scenario, Solved)>,
     options: &Options,
 ) -> Option<Result<Stream, ReadError>> {
     match scenario {
-        Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, &file, options)),
-        Some((_, _, true)) | None => None,
+        Some((file, scenario, Solved::No)) => Some(commonroad::recorded(&scenario, &file, options)),
+        Some((file, _, Solved::Perhaps(behind))) => {
+            let behind = behind.display();
+            let words = format!(
+                "left out: {behind} behind it cannot be read and may be its solution; if it has none, name the \
+                 scenario alone"
+            );
+            Some(Err(ReadError::file(&file, words)))
+        }
+        Some((_, _, Solved::Yes)) | None => None,
     }
 }

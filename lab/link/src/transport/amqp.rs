@@ -176,10 +176,8 @@ async fn connected(
         stream.set_nodelay(true)?;
         let mut builder = Connection::builder().container_id(name.as_str()).scheme("amqp");
         builder = builder.hostname(url.host_str()).idle_time_out(SILENT_MS);
-        if let Some(password) = url.password() {
-            let [user, password] = [url.username(), password].map(percent_decode_str);
-            let [user, password] = [user, password].map(|it| it.decode_utf8_lossy().into_owned());
-            builder = builder.sasl_profile(SaslProfile::from((user, password)));
+        if let Some(credentials) = credentials(url) {
+            builder = builder.sasl_profile(SaslProfile::from(credentials));
         }
         let mut connection = builder.open_with_stream(stream).await.map_err(in_words)?;
         let mut session = Session::begin(&mut connection).await?;
@@ -225,6 +223,12 @@ async fn connected(
         drop(time::timeout(AGAIN_AFTER, connection.close()).await);
     }
     left
+}
+
+/// User and password of a URL, in which `%40` stands for `@`.
+fn credentials(url: &Url) -> Option<(String, String)> {
+    let decoded = |it: &str| percent_decode_str(it).decode_utf8_lossy().into_owned();
+    Some((decoded(url.username()), decoded(url.password()?)))
 }
 
 /// Why a connection was not opened; who is refused is told so.
@@ -318,6 +322,13 @@ mod tests {
         );
         let tls = Amqp::new("amqps://guest:secret@localhost", Address::Vehicle(1)).unwrap_err();
         assert!(tls.to_string().contains("has no TLS"), "{tls}");
+    }
+
+    #[test]
+    fn user_and_password_may_have_any_letters() {
+        let url = Url::parse("amqp://b%40b:p%40s%3As%2F1@host:5672").unwrap();
+        assert_eq!(credentials(&url), Some(("b@b".to_owned(), "p@s:s/1".to_owned())));
+        assert_eq!(credentials(&Url::parse("amqp://host").unwrap()), None);
     }
 
     #[test]

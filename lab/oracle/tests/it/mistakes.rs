@@ -61,7 +61,22 @@ fn a_broken_solution_is_no_reason_to_drive_another_way() {
     // A file that is not there comes between a scenario and its solution.
     let told = mufasa(&["check", &scenario, "gone.xml", &solution]);
     told.has(2, "8 cycles", "");
-    assert!(!told.err.contains("no scenario"), "{}", told.err);
+    assert!(!told.err.contains("no scenario") && !told.err.contains("left out"), "{}", told.err);
+    for other in ["gone.xml", &write(&folder, "p.toml", "tau = 0.25")] {
+        let told = mufasa(&["check", &scenario, other]);
+        told.has(2, "", "behind it cannot be read and may be its solution");
+        assert!(told.out.starts_with("no drive; "), "{}", told.out);
+    }
+}
+
+/// A picture shows a cycle that a stage fails.
+#[test]
+fn without_a_picture_it_is_said_why() {
+    let folder = folder("no-picture");
+    let [scenario, solution] = small();
+    let pictures = folder.join("pictures").display().to_string();
+    let told = mufasa(&["check", &scenario, &solution, "--svg", &pictures]);
+    told.has(0, "8 cycles", "no picture: each shows a cycle that a stage fails");
 }
 
 #[test]
