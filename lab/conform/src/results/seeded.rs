@@ -193,7 +193,7 @@ mod tests {
         let (floats, others): (Vec<&str>, Vec<&str>) =
             named.partition(|name| name.starts_with("float32-"));
         assert_eq!(others, of_list.collect::<Vec<_>>());
-        assert_eq!([others.len(), floats.len()], [65, 56]);
+        assert_eq!([others.len(), floats.len()], [70, 56]);
         // The list has the fields of each part in a line.
         for name in floats {
             let (part, field) = name["float32-".len()..].split_once('-').expect("a field");
