@@ -168,16 +168,18 @@ fn told(field: &str, message: &str) -> MufasaSettingsProblem {
 macro_rules! of_parameters {
     ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in [$least:expr, $most:expr];)*) => {
         /// What was given of a parameter with this path, and the ends of its domain.
-        #[expect(clippy::cast_precision_loss, reason = "bounds, for people to read")]
         fn numbers(field: &str, parameters: &Parameters) -> [f64; 3] {
             match field {
                 $(concat!("parameters.", stringify!($name)) => {
-                    [parameters.$name as f64, $least as f64, $most as f64]
+                    let numbers: [$number; 3] = [parameters.$name, $least, $most];
+                    numbers.map(of_parameters!($number))
                 })*
                 _ => [f64::NAN; 3],
             }
         }
     };
+    (f64) => { core::convert::identity };
+    (i64) => { number };
 }
 
 mufasa::parameters!(of_parameters);
