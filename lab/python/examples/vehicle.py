@@ -98,7 +98,7 @@ def main() -> None:
             kept, brake_by = list(decision.trajectory.points), decision.trajectory.brake_by
         elif own_plan is not None:
             driven.append(own_plan[0])
-        elif kept and (brake_by is None or now + BUILD_UP < brake_by):
+        elif kept and (brake_by is None or brake_by - now > BUILD_UP):
             # No other is there, also after an unsafe cycle: the copy of the last verified one. By its brake_by the CAV
             # brakes fully; control, which runs more often than cycles do, looks at that time itself.
             driven.append(kept[0])
