@@ -18,7 +18,7 @@ use crate::status::MufasaStatus;
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaSettingsProblem {
-    /// Dotted path of the field; parameters.a_b is `stages.a_b`.
+    /// Dotted path of the field; `parameters.x` names the field `x` of `stages`.
     pub field: [c_char; MUFASA_TEXT_BYTES],
     /// What is wrong and what would be right.
     pub message: [c_char; MUFASA_TEXT_BYTES],

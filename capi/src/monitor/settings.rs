@@ -23,8 +23,8 @@ pub struct MufasaMonitorSettings {
     pub requester: MufasaRequesterParameters,
     /// The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
     /// `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
-    /// periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. So has
-    /// `stages.tau`, in seconds, in the hardened profile.
+    /// periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. In the
+    /// hardened profile `stages.tau`, in seconds, has to be above it, too.
     pub period_ns: i64,
     /// At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
     /// numbered on from here, so that no message of an earlier life fits.

@@ -88,12 +88,17 @@ pub fn cycle(
     }
 }
 
+/// Whether the frame is not at the border of the domain, where a long road ends outside of it.
+pub fn has_room(frame: Frame) -> bool {
+    frame.x.abs() < 1.6e7
+}
+
 /// Mostly in a town; at times up to that of the domain, and in the hardened profile seldom, up to 32 m/s: the model
-/// examines a place each 1/4 m of the way to a stop. At the border of the domain there is no room for a long road.
+/// examines a place each 1/4 m of the way to a stop.
 fn speed(draw: &mut Draw<'_>, frame: Frame, profile: Profile) -> f64 {
     let hardened = profile == Profile::HARDENED;
     let is_fast = draw.one_in(if hardened { 60 } else { 5 });
-    if is_fast && frame.x.abs() < 1.6e7 {
+    if is_fast && has_room(frame) {
         return draw.range(4.0, if hardened { 5.0 } else { 7.2 }).exp2();
     }
     draw.pick(&[2.0, 0.0, 5.0, 8.0, 0.3, 10.0, 13.9])
@@ -124,7 +129,8 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
     parameters
 }
 
-/// Constant speed along the frame's axis until `v_now` / `a_b`, below 40 m/s in steps that H-11 accepts.
+/// Constant speed along the frame's axis until `v_now` / `a_b`, below 40 m/s in steps that H-11 accepts,
+/// above in fewer.
 pub fn straight(ego: &Ego, frame: Frame, now_ns: i64, parameters: &Parameters) -> Trajectory {
     let is_town = ego.speed > 0.0 && ego.speed < 40.0;
     let step_s = if is_town { (0.9 * ego.length / ego.speed).min(0.2) } else { 0.2 };

@@ -102,11 +102,14 @@ pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> O
     let hit = steps;
     let (now_ns, ego) = (cycle.now_ns, cycle.ego.clone());
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
-    let zigzag = !hardened && draw.one_in(3);
+    // A wider one leaves the road.
+    let zigzag = !hardened && 0.28 * reach / (steps as f64) < 5.5 && draw.one_in(3);
     let pace = 1.0 / speed.max(0.5);
-    // H-11 does not let a trajectory take so long.
-    let slowly = if !hardened && draw.one_in(4) { draw.range(0.0, 6.0).exp2() } else { 1.0 };
-    let pace = pace * slowly.min(50.0 / (reach * pace)).max(1.0);
+    // H-11 does not let a trajectory take so long. What moves so long needs room.
+    let may_last = !hardened && base::has_room(road);
+    let slowly = if may_last && draw.one_in(4) { draw.range(0.0, 6.0).exp2() } else { 1.0 };
+    let all = reach + behind as f64 * spacing;
+    let pace = pace * slowly.min(50.0 / (all * pace)).max(1.0);
     let Some(trajectory) = &mut cycle.trajectory else {
         return touching(draw, cycle);
     };
@@ -197,7 +200,7 @@ fn obstacle(
     Obstacle { frame: Frame { x, y, cos, sin }, size, point: 0, away: ego.turn(away) }
 }
 
-/// A road so wide that no trajectory of these generators leaves it, except for fast zigzags.
+/// A road so wide that no trajectory of these generators leaves it.
 pub fn widen(cycle: &mut Cycle, frame: Frame) {
     let end = base::end_of_road(&cycle.ego, &cycle.parameters);
     cycle.route = base::road_to(frame, 6.0, end);

@@ -93,7 +93,8 @@ fn moving(draw: &mut Draw<'_>, cycle: &Cycle, found: Obstacle, stamp_ns: i64) ->
         2 => {
             // In the hardened profile what is so fast is decided by H-14, elsewhere than it is aimed here.
             let speeds = [8.0, 1.5, 20.0, 45.0, 90.0, 149.0];
-            let count = if cycle.profile == Profile::PAPER { 6 } else { 3 };
+            let is_any = cycle.profile == Profile::PAPER && base::has_room(found.frame);
+            let count = if is_any { 6 } else { 3 };
             let speed = draw.pick(&speeds[..count]);
             (speed * found.away.0, speed * found.away.1)
         }

@@ -2,28 +2,23 @@
 
 use super::tree::Tree;
 
-/// How each loop writes its period of so many milliseconds.
-const PERIODS: [(&str, [&str; 2]); 6] = [
-    ("impl/examples/vehicle.rs", ["Duration::from_millis(", ")"]),
-    ("impl/src/lib.rs", ["Duration::from_millis(", ")"]),
-    ("capi/examples/vehicle.c", ["#define PERIOD_MS ", "\n"]),
-    ("capi/README.md", ["mufasa_monitor_settings_default(", "000000)"]),
-    ("lab/python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
-    ("lab/python/README.md", ["timedelta(milliseconds=", ")"]),
+/// How each loop writes its period and its dt_max of so many milliseconds.
+const LOOPS: [(&str, [[&str; 2]; 2]); 6] = [
+    ("impl/examples/vehicle.rs", [["Duration::from_millis(", ")"], ["dt_max_ns = ", "_000_000;"]]),
+    ("impl/src/lib.rs", [["Duration::from_millis(", ")"], ["dt_max_ns = ", "_000_000;"]]),
+    ("capi/examples/vehicle.c", [["#define PERIOD_MS ", "\n"], ["dt_max_ns = ", " * MS;"]]),
+    ("capi/README.md", [["settings_default(", "000000)"], ["dt_max_ns = ", "000000;"]]),
+    ("lab/python/examples/vehicle.py", PYTHON),
+    ("lab/python/README.md", PYTHON),
 ];
-/// How each writes its dt_max of so many milliseconds.
-const DT_MAX: [(&str, [&str; 2]); 6] = [
-    ("impl/examples/vehicle.rs", ["dt_max_ns = ", "_000_000;"]),
-    ("impl/src/lib.rs", ["dt_max_ns = ", "_000_000;"]),
-    ("capi/examples/vehicle.c", ["dt_max_ns = ", " * MS;"]),
-    ("capi/README.md", ["dt_max_ns = ", "000000;"]),
-    ("lab/python/examples/vehicle.py", ["\"dt_max_ns\": ", "_000_000"]),
-    ("lab/python/README.md", ["\"dt_max_ns\": ", "_000_000"]),
-];
-const DT_MAX_ADVICE: (&str, [&str; 2]) =
-    ("docs/configuration.md", ["two periods and the largest jitter, ", " ms say"]);
-const ADVICE: (&str, [&str; 2]) =
-    ("docs/configuration.md", ["| period of the cycle and of the results | ", " ms |"]);
+const PYTHON: [[&str; 2]; 2] = [["timedelta(milliseconds=", ")"], ["\"dt_max_ns\": ", "_000_000"]];
+const ADVICE: (&str, [[&str; 2]; 2]) = (
+    "docs/configuration.md",
+    [
+        ["| period of the cycle and of the results | ", " ms |"],
+        ["two periods and the largest jitter, ", " ms say"],
+    ],
+);
 /// What a page says of a loop, whoever writes it anew.
 const SAID: [(&str, &str); 4] = [
     ("capi/README.md", "take(&decision.actions);"),
@@ -34,11 +29,11 @@ const SAID: [(&str, &str); 4] = [
 
 /// Loops with another period, or another dt_max, than the documents advise.
 pub fn periods(tree: &Tree) -> Vec<(String, String)> {
+    let (page, of_page) = ADVICE;
     let mut wrong = Vec::new();
-    for ((page, marks), loops) in [(ADVICE, PERIODS), (DT_MAX_ADVICE, DT_MAX)] {
-        let advised = between(tree, page, marks);
-        for (path, marks) in loops {
-            let own = between(tree, path, marks);
+    for (path, of_loop) in LOOPS {
+        for (own, advised) in of_loop.into_iter().zip(of_page) {
+            let [own, advised] = [between(tree, path, own), between(tree, page, advised)];
             if own.is_none() || own != advised {
                 wrong.push((path.to_owned(), format!("{own:?} ms, advised {advised:?}")));
             }

@@ -131,8 +131,9 @@ impl<'t> Script<'t> {
         loop {
             let phase = self.phase;
             self.phase = (phase + 1) % 7;
-            let rarely = if matches!(phase, 4 | 5) { 8 } else { 30 * self.calm };
-            let is_left_out = self.draw.one_in(rarely);
+            // Messages are lost more often: the cycle then has the element before.
+            let is_message = matches!(phase, 4 | 5);
+            let is_left_out = self.draw.one_in(if is_message { 8 } else { 30 * self.calm });
             let kind = match phase {
                 0 => {
                     self.period();
