@@ -143,8 +143,8 @@ int main(void) {
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
   size_t offloaded = 0, copied = 0;
-  struct MufasaTrajectoryPoint kept; /* of the last verified trajectory: here its first point */
-  memset(&kept, 0, sizeof kept);
+  struct MufasaTrajectoryPoint kept[POINTS]; /* of the last verified trajectory */
+  size_t kept_len = 0;
   struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of the last verified trajectory */
   for (int cycle = 0; cycle < CYCLES; ++cycle) {
     /* The period after the loss comes 1 ms late, which a dt_max of two periods alone would not bear. */
@@ -189,12 +189,15 @@ int main(void) {
     if (decision.trajectory != NULL) {
       ++offloaded;
       brake_by = decision.brake_by;
-      kept = decision.trajectory->points[0]; /* control needs all of it; until the next call it can be read there */
+      kept_len = decision.trajectory->points_len;
+      if (kept_len > POINTS) return 1;
+      memcpy(kept, decision.trajectory->points, kept_len * sizeof *kept);
     } else if (!has_plan && now.ns + BUILD_UP < brake_by.ns) {
-      /* No other is there, also after an unsafe cycle: it drives the copy of the last verified one. By its brake_by the
+      /* No other is there, also after an unsafe cycle: it drives to the next point of the copy. By its brake_by the
          CAV brakes fully; control, which runs more often than cycles do, looks at that time itself. */
-      ++copied;
-      if (kept.t.ns == 0) return 1;
+      size_t next = 0;
+      while (next < kept_len && kept[next].t.ns <= now.ns) ++next;
+      if (next < kept_len) ++copied;
     }
     /* What this program seems to get wrong: nothing. */
     if (decision.advice != MUFASA_ADVICE_NONE) {

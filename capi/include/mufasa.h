@@ -936,8 +936,8 @@ typedef struct MufasaMonitorSettings {
   struct MufasaRequesterParameters requester;
   // The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
   // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
-  // periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. So has
-  // `stages.tau`, in seconds, in the hardened profile.
+  // periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. In the
+  // hardened profile `stages.tau`, in seconds, has to be above it, too.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
@@ -1043,7 +1043,7 @@ typedef struct MufasaDecision {
 
 // What is wrong with settings. The texts are empty when nothing is.
 typedef struct MufasaSettingsProblem {
-  // Dotted path of the field; parameters.a_b is `stages.a_b`.
+  // Dotted path of the field; `parameters.x` names the field `x` of `stages`.
   char field[MUFASA_TEXT_BYTES];
   // What is wrong and what would be right.
   char message[MUFASA_TEXT_BYTES];

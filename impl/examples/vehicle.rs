@@ -81,11 +81,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         // A planner that stands has no plan, also in the period in which it is told to start.
         let detections = world.detections();
         let own_plan = (!station.planner_stands).then(|| world.trajectory());
-        let mut inputs = Inputs::new(now, world.ego).detections(now, &detections).lead(
-            now,
-            Gap::between_bumpers(world.gap),
-            5.0,
-        );
+        let lead = Gap::between_bumpers(world.gap);
+        let mut inputs =
+            Inputs::new(now, world.ego).detections(now, &detections).lead(now, lead, 5.0);
         if let Some(own_plan) = &own_plan {
             inputs = inputs.local_trajectory(now, own_plan);
         }
@@ -121,7 +119,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             (_, None) => {
                 copied += 1;
-                first(&kept)
+                kept.iter().find(|point| point.t_ns > now.as_nanoseconds()).copied()
             }
         });
         station.take(&actions);
@@ -148,7 +146,7 @@ fn follow(
     trajectory.points.first().copied()
 }
 
-/// The CAV's own plan, or a copy of what was verified.
+/// The CAV's own plan.
 fn first(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
     points.first().copied()
 }

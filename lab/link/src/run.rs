@@ -75,7 +75,7 @@ pub fn station(
     clock: SharedClock,
     transport: &mut impl Transport,
     stop: &AtomicBool,
-    heard: &mut dyn FnMut(&Health),
+    heard: &mut dyn FnMut(Health),
 ) -> Result<StationSummary, EncodeError> {
     let mut station = Station::new(id, offered, transport)?;
     if let Some(settings) = asks {
@@ -83,7 +83,7 @@ pub fn station(
     }
     while !stop.load(Ordering::Relaxed) {
         let due_ns = station.step(clock.now_ns());
-        heard(&station.health());
+        heard(station.health());
         station.wait(until(due_ns, clock));
     }
     Ok(station.end(clock.now_ns()))

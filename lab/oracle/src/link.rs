@@ -113,20 +113,11 @@ pub fn station(
         });
     }
     let clock = SharedClock::new().map_err(said)?;
-    let mut was = broker.health();
-    let began = Instant::now();
-    let mut heard = |now: &Health| {
-        let before = std::mem::replace(&mut was, now.clone());
-        if (before.connected, before.connections) != (now.connected, now.connections)
-            && !progress::is_quiet()
-        {
-            let what = What::Link {
-                connected: now.connected,
-                connections: now.connections,
-                error: now.last_error.clone(),
-            };
-            let told = what.change().unwrap_or_default();
-            complain(&format!("{:.1} s: {told}", began.elapsed().as_secs_f64()));
+    let (began, mut seen) = (Instant::now(), None);
+    let mut heard = |health: Health| {
+        let change = What::of_link(health, &mut seen).and_then(|it| it.change());
+        if let Some(change) = change.filter(|_| !progress::is_quiet()) {
+            complain(&format!("{:.1} s: {change}", began.elapsed().as_secs_f64()));
         }
     };
     let plays = [&clean, &played];

@@ -101,7 +101,7 @@ def main() -> None:
         elif kept and (brake_by is None or brake_by - now > BUILD_UP):
             # No other is there, also after an unsafe cycle: the copy of the last verified one. By its brake_by the CAV
             # brakes fully; control, which runs more often than cycles do, looks at that time itself.
-            driven.append(kept[0])
+            driven.append(next(point for point in kept if point.t_ns > now.nanoseconds))
             copied += 1
         if not decision.safe:
             report = decision.report

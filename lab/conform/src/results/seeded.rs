@@ -193,7 +193,7 @@ mod tests {
         let (floats, others): (Vec<&str>, Vec<&str>) =
             named.partition(|name| name.starts_with("float32-"));
         assert_eq!(others, of_list.collect::<Vec<_>>());
-        assert_eq!([others.len(), floats.len()], [70, 56]);
+        let (all, of_floats) = (bugs.len(), floats.len());
         // The list has the fields of each part in a line.
         for name in floats {
             let (part, field) = name["float32-".len()..].split_once('-').expect("a field");
@@ -210,6 +210,18 @@ mod tests {
             of_monitors.len() > 15
                 && of_monitors.iter().all(|it| page.contains(&format!("| {it} |")))
         );
+        let with_monitors = all + of_monitors.len();
+        for (file, words) in [
+            ("README.md", format!("{all} seeded bugs")),
+            ("docs/conformance.md", format!("In all {all} bugs were seeded")),
+            ("docs/conformance.md", format!("among the {all} now, and {of_floats} fields")),
+            (
+                "examples/conformance/README.md",
+                format!("has {with_monitors} bugs, {of_floats} of them one field each"),
+            ),
+        ] {
+            assert!(read(file).contains(&words), "{file}: {words}");
+        }
         let is_float =
             |bug: &&Value| bug["name"].as_str().is_some_and(|it| it.starts_with("float32-"));
         let is_sure =

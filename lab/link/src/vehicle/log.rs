@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::transport::Health;
+
 /// One thing that happened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Entry {
@@ -137,6 +139,17 @@ impl fmt::Display for Follows {
 }
 
 impl What {
+    /// Of a connection that was made or has ended since `seen`, which then has how it is now.
+    pub fn of_link(health: Health, seen: &mut Option<(bool, u64)>) -> Option<Self> {
+        let Health { connected, connections, last_error: error, .. } = health;
+        let now = Some((connected, connections));
+        (std::mem::replace(seen, now) != now).then_some(Self::Link {
+            connected,
+            connections,
+            error,
+        })
+    }
+
     /// What has changed by it, in words; `None` of what changes nothing, or is said by another entry.
     pub fn change(&self) -> Option<String> {
         match self {

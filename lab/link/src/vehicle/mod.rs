@@ -297,9 +297,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
 
     /// Notes a connection that was made or has ended.
     fn look_at_link(&mut self, now_ns: i64) {
-        let Health { connected, connections, last_error: error, .. } = self.transport.health();
-        if self.link.replace((connected, connections)) != Some((connected, connections)) {
-            self.tally.note(now_ns, What::Link { connected, connections, error });
+        if let Some(what) = What::of_link(self.transport.health(), &mut self.link) {
+            self.tally.note(now_ns, what);
         }
     }
 
