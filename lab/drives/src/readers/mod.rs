@@ -70,7 +70,10 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
         let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;
         // What cannot be read may be the solution of the scenario before it, which is no reason to drive another way.
-        if let (Err(_), Some((_, _, solved @ Solved::No))) = (&content, &mut scenario) {
+        // The scenario itself, named once more, is none.
+        if let (Err(_), Some((file, _, solved @ Solved::No))) = (&content, &mut scenario)
+            && file != path
+        {
             *solved = if is_solution { Solved::Yes } else { Solved::Perhaps(path.clone()) };
         }
         if !matches!(content, Ok(Content::Solution(_)) | Err(_)) {

@@ -31,7 +31,7 @@ use self::summary::Tally;
 use self::tell::Measured;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
-use crate::transport::{Address, Health, Transport};
+use crate::transport::{Address, Transport};
 
 /// How long before its first decision a vehicle begins, ns.
 const BEFORE_THE_FIRST_NS: i64 = 100_000_000;

@@ -53,7 +53,7 @@ fn who_dies_is_started_again_until_it_is_given_up() {
 #[test]
 fn who_dies_now_and_then_is_asked_to_the_end() {
     let script = format!(r#"{EACH} case $line in *'"gap"'*) exit 1;; esac; {SAFE}; done"#);
-    let options = "--kinds cycle --cases 60 --profile paper --seed 3";
+    let options = "--kinds cycle --cases 60 --profile paper --seed 1";
     let (summary, told) = wrong("dies-seldom", options, &script);
     assert_eq!((summary.asked, summary.skipped), (60, 0), "{told}");
     let dies = summary.classes.iter().find(|found| found.class.breach == Breach::Dies);

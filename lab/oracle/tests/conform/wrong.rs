@@ -85,11 +85,11 @@ fn who_forgets_a_hold_or_a_composition_is_found_in_one_object() {
 fn who_forgets_a_rule_of_the_monitor_is_told_which() {
     let forgets = changed(r#"s/"dropped":"stale"/"dropped":null/g"#);
     let found = wrong("monitor", "--kinds monitor --cases 20", &forgets);
-    let stale = class(&found, Breach::States, "dropped after tracks");
+    let stale = class(&found, Breach::States, "dropped after trajectory");
     let expected = &stale.told.expected;
     assert!(expected.starts_with("dropped after event "), "{expected}");
-    assert!(expected.ends_with("(tracks) [MON-30] must be \"stale\", is null"), "{expected}");
-    // A cycle whose detections are kept, an offer, a tick that asks, the confirmation, and the tracks.
+    assert!(expected.ends_with("(trajectory) [MON-30] must be \"stale\", is null"), "{expected}");
+    // A cycle whose detections are kept, an offer, a tick that asks, the confirmation, and the trajectory.
     assert_eq!(stale.size, 5, "{}", found.1);
     let lenient = changed(r#"s/"verdict":"error".*/"states":[]}/"#);
     let (summary, told) = wrong("monitor-settings", "--kinds monitor --cases 60", &lenient);
