@@ -164,7 +164,7 @@ impl Past {
             // SCHED-08
             Stage::Iv => self.ran_iii,
             // SCHED-09
-            Stage::V => (self.ran_iii || self.ran_iv) && others_replace_v,
+            Stage::V => others_replace_v && (self.ran_iii || self.ran_iv),
         }
     }
 }

@@ -4,6 +4,7 @@
 
 mod circles;
 mod closes;
+mod decisions;
 mod evidence;
 #[path = "../tree/hash.rs"]
 mod hash;
@@ -158,6 +159,12 @@ fn rules_close_the_same_findings_in_all_tables() {
 #[test]
 fn evidence_that_is_named_exists() {
     judge(&evidence::missing(&Tree::here()), &[]);
+}
+
+/// Branches are all that rustc counts.
+#[test]
+fn branch_coverage_of_conditions_is_mc_dc() {
+    judge(&decisions::with_two_ways(&Tree::here()), &[]);
 }
 
 /// A deviation from the guideline that nobody reads of is none that was decided.

@@ -245,14 +245,13 @@ impl<'c, 'a> Places<'c, 'a> {
             return false;
         }
         // H-14.35; H-14.36
-        exact.is_behind && exact.comes_across && across.certainly_at_most(along) || {
-            let Exact { now, velocity, speed, is_behind, .. } = *exact;
-            let (until, comes_towards) =
-                (self.until_yielded(speed), across.certainly_at_most(-along));
-            let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
-            self.beside.keeps(&passing, boxes.2)
-                && !self.may_lie_across(&object.standing(from), boxes)
+        if exact.is_behind && exact.comes_across && across.certainly_at_most(along) {
+            return true;
         }
+        let Exact { now, velocity, speed, is_behind, .. } = *exact;
+        let (until, comes_towards) = (self.until_yielded(speed), across.certainly_at_most(-along));
+        let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
+        self.beside.keeps(&passing, boxes.2) && !self.may_lie_across(&object.standing(from), boxes)
     }
 
     /// Whether an object that stands may share a point with the CAV at some place (H-14.38).
