@@ -8,6 +8,8 @@ use mufasa_props::differential::{agree, conforming, hold, near_threshold, same_w
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation::{detection, track};
 use mufasa_props::strategy::{base, fail_safe, seen};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
 
 #[test]
 fn hardened() {
@@ -58,6 +60,24 @@ fn too_much(cycle: &Cycle) -> Option<i64> {
     let report = check(cycle, Reading::Strict).expect("valid");
     let witness = report.witness().filter(|witness| witness.rule == Rule::WorkLimit)?;
     witness.compared[0].to_string().parse().ok()
+}
+
+/// H-14.42: an implementation that asks at all places at once has to bear more of them than it has room for.
+#[test]
+fn beside_a_path_of_thousands_of_places() {
+    let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
+    for _ in 0..200 {
+        let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
+        let cycle = fail_safe::beside_many_places(&mut Draw::new(&tape), Profile::HARDENED);
+        let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
+        assert_eq!(conforming(&cycle, &exact, &strict), Ok(()));
+        match exact.map(|report| report.failed_stage) {
+            Ok(None) => safe += 1,
+            Ok(Some(_)) => unsafe_ += 1,
+            Err(_) => {}
+        }
+    }
+    assert!(safe > 0 && unsafe_ > 0, "{safe} {unsafe_}");
 }
 
 /// H-14.51: twenty detections without a track may come from the own origin of a confirmed track, or not. An implementation

@@ -53,12 +53,26 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 
 /// A cycle that one of the `AIMS` is for.
 pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
+    let mut cycle = scene(draw, profile);
+    decide(draw, &mut cycle, aim);
+    cycle
+}
+
+/// An object beside a path of more than four thousand places, those at the points among them.
+pub fn beside_many_places(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = scene(draw, profile);
+    shape::divide(&mut cycle);
+    let aim = AIMS.iter().position(|(name, _)| *name == "beside");
+    decide(draw, &mut cycle, aim.unwrap_or(0));
+    cycle
+}
+
+fn scene(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let frame = base::frame(draw);
     let configuration =
         draw.pick(&[Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote]);
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     obstacle::widen(&mut cycle, frame);
-    decide(draw, &mut cycle, aim);
     cycle
 }
 

@@ -27,6 +27,25 @@ fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
     &mut cycle.trajectory.get_or_insert_with(empty).points
 }
 
+/// As far as the CAV needs to stop, with about a thousand points: the ways between those that it has in equal parts.
+pub fn divide(cycle: &mut Cycle) {
+    let (s_stop, Frame { x, y, .. }) = (base::s_stop(cycle), frame(cycle));
+    let points = points(cycle);
+    points.retain(|point| (point.x - x).hypot(point.y - y) < s_stop);
+    let parts = 1000 / points.len().max(1);
+    let between = |[from, to]: [&TrajectoryPoint; 2], part: usize| {
+        let share = part as f64 / parts as f64;
+        let (x, y) = (from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
+        let t_ns = from.t_ns + (share * (to.t_ns - from.t_ns) as f64) as i64;
+        TrajectoryPoint { t_ns, x, y, ..from.clone() }
+    };
+    let ways: Vec<_> = points.windows(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
+    let divided =
+        ways.iter().flat_map(|[from, to]| (0..parts).map(move |part| between([from, to], part)));
+    let last = points.last().cloned();
+    *points = divided.chain(last).collect();
+}
+
 /// Ends anywhere, at least behind its first point.
 fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let points = points(cycle);
