@@ -334,9 +334,14 @@ pub(crate) fn input(problem: Option<InvalidInput>) -> MufasaInvalidInput {
 
 /// A text with a closing 0; one that is too long is cut off.
 pub(crate) fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
+    joined([text, ""])
+}
+
+/// Two texts as one.
+pub(crate) fn joined(parts: [&str; 2]) -> [c_char; MUFASA_TEXT_BYTES] {
     let mut bytes = [0; MUFASA_TEXT_BYTES];
     let places = bytes.iter_mut().take(MUFASA_TEXT_BYTES - 1);
-    for (place, byte) in places.zip(text.bytes()) {
+    for (place, byte) in places.zip(parts.iter().flat_map(|part| part.bytes())) {
         *place = c_char::from_ne_bytes([byte]);
     }
     bytes

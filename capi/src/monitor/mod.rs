@@ -12,7 +12,7 @@ pub use self::calls::{
     mufasa_monitor_cycle, mufasa_monitor_init, mufasa_monitor_set_route, mufasa_monitor_state,
     mufasa_monitor_step, mufasa_monitor_tracks, mufasa_monitor_trajectory,
 };
-pub use self::decision::{MufasaActions, MufasaDecision, MufasaDropReason};
+pub use self::decision::{MufasaActions, MufasaAdvice, MufasaDecision, MufasaDropReason};
 pub use self::element::{MufasaTrackMessage, MufasaTrajectoryMessage};
 pub use self::place::{
     MUFASA_MONITOR_ALIGN, MufasaMonitor, MufasaMonitorInputs, mufasa_monitor_bytes,

@@ -99,7 +99,9 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
             MufasaSettingsProblem { value, least, most, ..told(field, problem.message()) }
         }
         MonitorError::Requester(RequesterError::NegativeParameter { field }) => {
-            told(field, "below 0; give nanoseconds from 0 to 2^63 - 1")
+            let field = report::joined(["requester.", field]);
+            let told = told("", "below 0; give nanoseconds from 0 to 2^63 - 1");
+            MufasaSettingsProblem { field, ..told }
         }
         MonitorError::Requester(_) => told("requester", ""),
         MonitorError::NoPeriod => told("period_ns", POSITIVE),
@@ -207,3 +209,6 @@ fn missing(settings: &MufasaMonitorSettings) -> Option<&'static str> {
     ];
     numbers.into_iter().find(|(_, number)| *number == 0).map(|(name, _)| name)
 }
+
+#[cfg(test)]
+mod tests;

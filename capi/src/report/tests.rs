@@ -2,9 +2,11 @@
 
 use core::ffi::CStr;
 
-use mufasa::report::{InvalidInput, Problem};
+use mufasa::monitor::{Advice, DropReason};
+use mufasa::report::{FailedStage, InvalidInput, Problem, Rule, Stage};
 
-use super::{MUFASA_TEXT_BYTES, input};
+use super::{MUFASA_TEXT_BYTES, failed_stage, input, rule};
+use crate::monitor::{MufasaAdvice, MufasaDropReason};
 
 const PROBLEMS: [Problem; 14] = [
     Problem::NotFinite,
@@ -33,5 +35,69 @@ fn messages_fit_and_end_with_a_zero() {
         assert_eq!(text, problem.message());
         assert!(field.len() < MUFASA_TEXT_BYTES);
         assert_eq!(told.index, 3);
+    }
+}
+
+/// A slip in the table would tell an integrator of another rule.
+#[test]
+fn what_c_is_told_has_the_name_of_rust() {
+    let rules = [
+        Rule::Ambiguous,
+        Rule::MeanCost,
+        Rule::WorkLimit,
+        Rule::NoAssignment,
+        Rule::ThetaMap,
+        Rule::StartTime,
+        Rule::StartPosition,
+        Rule::StartHeading,
+        Rule::StartOffset,
+        Rule::Corridor,
+        Rule::Direction,
+        Rule::StepTime,
+        Rule::StepLength,
+        Rule::StepSpeed,
+        Rule::StepForward,
+        Rule::StepLateral,
+        Rule::StepTurn,
+        Rule::Slide,
+        Rule::Reach,
+        Rule::Gap,
+        Rule::Collision,
+        Rule::FailSafe,
+        Rule::Occupied,
+        Rule::Unknown,
+        Rule::Outside,
+    ];
+    for it in rules {
+        assert_eq!(format!("{:?}", rule(it)), format!("{it:?}"));
+    }
+    for it in Stage::ALL {
+        assert_eq!(format!("{:?}", failed_stage(Some(FailedStage::Stage(it)))), format!("{it:?}"));
+    }
+    let reasons = [
+        DropReason::TooLong,
+        DropReason::OtherSession,
+        DropReason::FromTheFuture,
+        DropReason::Late,
+        DropReason::TooOld,
+        DropReason::Starved,
+        DropReason::AfterSilence,
+        DropReason::NotNewer,
+    ];
+    for it in reasons {
+        assert_eq!(format!("{:?}", MufasaDropReason::from(it)), format!("{it:?}"));
+    }
+    let advice = [
+        Advice::Period,
+        Advice::DetectionsNotCurrent,
+        Advice::LeadNotCurrent,
+        Advice::GridNotCurrent,
+        Advice::LeadSpeed,
+        Advice::GapTooLong,
+        Advice::GapTooShort,
+        Advice::NoTick,
+    ];
+    for it in advice {
+        assert_eq!(format!("{:?}", MufasaAdvice::from(it)), format!("{it:?}"));
     }
 }

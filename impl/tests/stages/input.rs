@@ -3,7 +3,7 @@
 
 use crate::scene::{NOW_NS, scene};
 use mufasa::cycle;
-use mufasa::input::cycle::Cycle;
+use mufasa::input::cycle::{Cycle, Track};
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{InvalidInput, Problem};
@@ -86,4 +86,21 @@ fn scratch_that_is_too_small_is_an_error() {
         assert_eq!(small, Err(invalid("scratch", None, Problem::ScratchTooSmall)));
     };
     assert!(scene.check().is_ok());
+}
+
+/// INPUT-04: ids that a table of bits cannot tell apart are two.
+#[test]
+fn ids_that_are_4096_apart_are_two() {
+    let mut scene = scene(Profile::PAPER, MotRemote, [0.0, 0.0]);
+    let tracks = scene.tracks.as_mut().expect("a list");
+    let first = tracks[0];
+    tracks.extend([4096, 8192].map(|more| Track {
+        id: first.id + more,
+        x: first.x + 9.0,
+        ..first
+    }));
+    assert_eq!(scene.check().map(|report| report.input), Ok(None));
+    scene.tracks.as_mut().expect("a list")[2].id = first.id;
+    let problem = scene.check().expect("a report").input.expect("a problem");
+    assert_eq!(problem, invalid("tracks.items.id", Some(2), Problem::DuplicateId));
 }

@@ -15,4 +15,5 @@ mod motions;
 mod profiles;
 mod scene;
 mod slide;
+mod words;
 mod work;

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::path::{Nodes, Path, steps};
 use crate::hardened::h14_fail_safe::spot::tests::standing;
 use crate::input::cycle::TrajectoryPoint;
 use crate::input::parameters::Parameters;
@@ -42,4 +42,22 @@ fn there_are_no_more_places_than_are_counted_and_not_many_fewer() {
         straight += u32::from(is_straight && places as f64 + 20.0 + 6.0 * pieces > most);
     }
     assert!(straight > 2_000, "{straight}");
+}
+
+/// H-14.3: 1/10 as a double is 3602879701896397 / 2^55, and lengths from 1/10 on are multiples of 2^-60.
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "below 2^80")]
+fn steps_are_exact_beside_each_multiple() {
+    let (d, tenth) = (0.1, 3_602_879_701_896_397_i128);
+    let mut more = 0;
+    for fewer in 1..5000_i16 {
+        let multiple = f64::from(fewer) * d;
+        for to in [multiple.next_down(), multiple, multiple.next_up()] {
+            let fits = (to * libm::exp2(60.0)) as i128 <= i128::from(fewer) * (tenth << 5_u8);
+            let expected = i64::from(fewer) + i64::from(!fits);
+            assert_eq!([steps(0.0, to, d), steps(to, 0.0, d)], [expected; 2], "{to}");
+            more += i64::from(!fits);
+        }
+    }
+    assert!((5000..10_000).contains(&more), "{more}");
 }
