@@ -176,6 +176,8 @@ mod tests {
             assert_eq!(required(null).err(), Some(MufasaStatus::NullPointer));
         }
         // SAFETY: as above.
+        assert_eq!(unsafe { required(odd) }.err(), Some(MufasaStatus::Misaligned));
+        // SAFETY: as above.
         assert_eq!(unsafe { optional(odd) }.err(), Some(MufasaStatus::Misaligned));
         // SAFETY: as above.
         assert_eq!(unsafe { list(null, 1, 1) }.err(), Some(MufasaStatus::NullPointer));

@@ -101,6 +101,23 @@ static void verdicts(void) {
   EXPECT(report.stages[0].kind == MUFASA_OUTCOME_KIND_NOT_APPLICABLE);
   EXPECT(report.stages[0].missing == MUFASA_INPUT_TRACKS);
 
+  /* Hardened, a cell under the car of which nothing is known. */
+  set_up(&s);
+  s.cycle.profile = MUFASA_PROFILE_HARDENED;
+  s.cycle.tracks = NULL;
+  s.cycle.detections = NULL;
+  s.cycle.lead = NULL;
+  s.cycle.ego.speed = 0;
+  uint8_t unknown[8] = {0};
+  s.grid.x = -4;
+  s.grid.unknown = unknown;
+  s.grid.unknown_len = sizeof unknown;
+  EXPECT(checked(&s.cycle).failed_stage != MUFASA_FAILED_STAGE_V);
+  unknown[4] = 1 << 5;
+  report = checked(&s.cycle);
+  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_V);
+  EXPECT(report.stages[4].witness.rule == MUFASA_RULE_UNKNOWN);
+
   /* The hardened profile asks for more: with nothing to compare with, H-05. */
   set_up(&s);
   s.cycle.profile = MUFASA_PROFILE_HARDENED;

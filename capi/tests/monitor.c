@@ -56,6 +56,7 @@ static struct MufasaMonitor *offloading(void) {
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_OK);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_PLAN, 2) == MUFASA_STATUS_OK);
   struct MufasaRequesterState state;
+  EXPECT(mufasa_monitor_state(NULL, &state) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_state(monitor, &state) == MUFASA_STATUS_OK);
   EXPECT(state.configuration == MUFASA_CONFIGURATION_ALL_REMOTE);
   return monitor;
