@@ -286,7 +286,7 @@ static void a_status_of_the_settings_has_a_field(void) {
   struct MufasaMonitor *monitor = NULL;
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_TIME_TOO_SHORT && monitor == NULL);
   it.requester.t_wait_ns = -1;
-  is_about(&it, MUFASA_STATUS_NEGATIVE_PARAMETER, "t_wait_ns");
+  is_about(&it, MUFASA_STATUS_NEGATIVE_PARAMETER, "requester.t_wait_ns");
   it.requester.t_wait_ns = 1000 * MS - 1;
   is_about(&it, MUFASA_STATUS_TIME_TOO_SHORT, "requester.t_wait_ns");
   it = settings();
