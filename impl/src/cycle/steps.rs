@@ -291,12 +291,15 @@ mod tests {
             let work_limit = i64::from(below(u32::MAX)) >> below(32);
             let parameters = Parameters { work_limit, ..Parameters::default() };
             let total = |counts| most_steps(&counts, &parameters).total();
-            let mut longer = [counts; 8];
+            let mut longer = [counts; 9];
             LISTS.iter().zip(&mut longer).for_each(|(list, it)| *(list.1)(it) += 1);
             longer[6].cav_rows += 1;
             longer[7].way_rows += 1;
+            longer[8].lists += 1;
             for more in longer {
                 assert!(total(counts) <= total(more), "{counts:?}, {more:?}, {work_limit}");
+                // IMPL-13
+                assert!(counts.is_within(&more) && !more.is_within(&counts), "{more:?}");
             }
         }
     }

@@ -2,7 +2,7 @@
 //! (`spec/4-arithmetic.md#domain`).
 
 use crate::scene::{NOW_NS, Scene, detection, scene, track};
-use mufasa::input::cycle::{Detection, Grid, Track, TrajectoryPoint};
+use mufasa::input::cycle::{CrossSection, Detection, Grid, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::{AllRemote, PlanRemote};
@@ -111,4 +111,16 @@ fn a_cell_at_the_end_of_the_grid_is_found() {
     };
     let (_, witness) = scene.failure().expect("a cell on the way");
     assert_eq!((witness.rule, witness.cell), (Rule::Occupied, Some((199, 10))));
+}
+
+/// INPUT-04: two points of the reference path have to be two; how far apart they are does not matter.
+#[test]
+fn points_of_the_route_may_be_hardly_apart() {
+    let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
+    let first = scene.cross_sections[2];
+    assert_eq!((first.x, first.y, scene.rule()), (0.0, 0.0, None));
+    scene.cross_sections.insert(3, CrossSection { x: 1e-80, ..first });
+    assert_eq!(scene.rule(), None);
+    scene.points[0].y = 2.5;
+    assert!(scene.rule().is_some(), "it begins beside the corridor");
 }

@@ -164,6 +164,18 @@ fn too_little_memory_is_refused_by_name() {
     assert_eq!(without(nothing, Profile::PAPER), None, "nothing is kept in this profile");
 }
 
+/// MON-18: memory for the cross sections alone is too little for a route.
+#[test]
+fn a_route_without_room_for_its_index_is_refused() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, cross_sections.len());
+    buffers.0.blocks.pop();
+    let mut monitor = buffers.monitor(settings()).expect("memory");
+    let told = monitor.set_route(&Route { closed: false, cross_sections: &cross_sections });
+    let (field, problem) = ("route", Problem::ScratchTooSmall);
+    assert_eq!(told, Err(InvalidInput { field, index: None, problem }));
+}
+
 /// MON-19: a list of detections that could not be kept makes its own cycle
 /// unsafe, and one item fewer does not.
 #[test]
