@@ -5,8 +5,8 @@
 mod numbers;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
@@ -60,7 +60,11 @@ fn the_model_gives_every_published_answer() {
 #[test]
 fn the_implementation_conforms_on_every_published_vector() {
     let mut count = BTreeMap::<&str, u32>::new();
+    let only = env::var("MUFASA_REQUIREMENT");
     each(|vector, line| {
+        if only.as_ref().is_ok_and(|id| !cites(vector, id)) {
+            return;
+        }
         let kind = match json::parse(line.as_bytes(), 1) {
             Ok(Record::Cycle { cycle, .. }) => {
                 let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
@@ -90,8 +94,19 @@ fn the_implementation_conforms_on_every_published_vector() {
         };
         *count.entry(kind).or_default() += 1;
     });
+    if only.is_ok() {
+        return println!("vectors of {only:?} alone: {count:?}");
+    }
     assert!(count["cycle"] > 1_300 && count["offloading"] > 100, "{count:?}");
     assert!(count["monitor"] > 150, "{count:?}");
+}
+
+/// `scripts/coverage` asks for those of one requirement.
+fn cites(vector: &Vector, id: &str) -> bool {
+    let is_outside = |it: char| !(it.is_alphanumeric() || it == '-' || it == '.');
+    ["requirement", "flag"]
+        .iter()
+        .any(|key| vector[*key].get().split(is_outside).any(|it| it == id))
 }
 
 /// Of the monitor: no record shows them, and which test does.
