@@ -36,7 +36,7 @@ pub fn divide(cycle: &mut Cycle) {
     let between = |[from, to]: [&TrajectoryPoint; 2], part: usize| {
         let share = part as f64 / parts as f64;
         let (x, y) = (from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-        let t_ns = from.t_ns + (share * (to.t_ns - from.t_ns) as f64) as i64;
+        let t_ns = from.t_ns + base::to_ns(share * base::seconds(to.t_ns - from.t_ns));
         TrajectoryPoint { t_ns, x, y, ..from.clone() }
     };
     let ways: Vec<_> = points.windows(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();

@@ -46,7 +46,6 @@ fn there_are_no_more_places_than_are_counted_and_not_many_fewer() {
 
 /// H-14.3: 1/10 as a double is 3602879701896397 / 2^55, and lengths from 1/10 on are multiples of 2^-60.
 #[test]
-#[expect(clippy::cast_possible_truncation, reason = "below 2^80")]
 fn steps_are_exact_beside_each_multiple() {
     let (d, tenth) = (0.1, 3_602_879_701_896_397_i128);
     let mut more = 0;
