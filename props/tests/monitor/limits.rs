@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mufasa::input::cycle::{Detection, Route};
+use mufasa::input::cycle::{Detection, Ego, Route};
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Decision, Gap, Inputs, Message, Monitor, MonitorError, Settings};
 use mufasa::offloading::requester::{Group, Groups, RequesterError};
@@ -207,6 +207,11 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let mut monitor = buffers.monitor(settings()).expect("a monitor");
     let world = World::at(0);
     let inputs = Inputs::new(at(0), world.ego);
+    let nowhere = Inputs::new(at(0), Ego { x: f64::NAN, ..world.ego });
+    match monitor.cycle(&nowhere).0 {
+        Decision::Unsafe { report: Err(error), .. } => assert_eq!(error.field, "ego.x"),
+        decision => panic!("{decision:?}"),
+    }
     match monitor.cycle(&inputs).0 {
         Decision::Unsafe { report, .. } => {
             let error = report.expect_err("no route");

@@ -155,6 +155,17 @@ fn creeping(now_ns: i64, step_m: f64) -> World {
 
 /// In which of so many cycles planning was given back.
 fn given_back(stall: Option<Stall>, groups: Groups, step_m: f64, cycles: i64) -> Vec<i64> {
+    given_back_unless(stall, groups, step_m, cycles, None)
+}
+
+/// And the area for planning is left before a cycle.
+fn given_back_unless(
+    stall: Option<Stall>,
+    groups: Groups,
+    step_m: f64,
+    cycles: i64,
+    left_at: Option<i64>,
+) -> Vec<i64> {
     let world = |now_ns: i64| creeping(now_ns, step_m);
     beside(Settings { stall, ..settings() }, world, |mut monitor| {
         let mut found = Vec::new();
@@ -163,6 +174,9 @@ fn given_back(stall: Option<Stall>, groups: Groups, step_m: f64, cycles: i64) ->
         for i in 0..cycles {
             let world = world(i * 100 * MS);
             let now = at(world.now_ns);
+            if left_at == Some(i) {
+                let _drops = monitor.area(now, Groups::from(Group::Mot));
+            }
             let before = monitor.requester().session_of(Group::Plan);
             let (tracks, points) = station.period(&mut monitor, &world);
             if monitor.given_back() == Some(now) {
@@ -198,6 +212,8 @@ fn planning_that_gets_on_is_not_given_back_nor_that_of_the_cav_itself() {
     assert_eq!(given_back(STALL, Groups::ALL, 0.05, 200), [0; 0]);
     assert_eq!(given_back(STALL, Groups::from(Group::Mot), 0.0, 200), [0; 0]);
     assert_eq!(given_back(None, Groups::ALL, 0.0, 200), [0; 0]);
+    // Planning that has just become local is not given back, however long it got nowhere.
+    assert_eq!(given_back_unless(STALL, Groups::ALL, 0.0, 40, Some(32)), [0; 0]);
     // 1 m in 3.03 s is too slow.
     assert_eq!(given_back(STALL, Groups::ALL, 0.033, 70), [61]);
 }

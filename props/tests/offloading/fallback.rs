@@ -43,6 +43,19 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
         let kind = EventKind::of_cycle(&result, SESSION_1);
         assert_eq!(kind, EventKind::Verdict { safe, sessions: SESSION_1 });
     }
+    let stages = [mufasa::report::Outcome::NotScheduled; 5];
+    let report = |failed_stage| mufasa::report::Report { failed_stage, stages, input: None };
+    let problem = mufasa::report::Problem::NotFinite;
+    for (result, safe) in [
+        (Ok(report(None)), true),
+        (Ok(report(Some(mufasa::report::FailedStage::Input))), false),
+        (Ok(report(Some(mufasa::report::FailedStage::NoObstacleCheck))), false),
+        (Err(mufasa::report::InvalidInput { field: "ego.x", index: None, problem }), false),
+    ] {
+        let sessions = mufasa::offloading::requester::Sessions { mot: Some(1), plan: None };
+        let kind = mufasa::offloading::requester::EventKind::of_cycle(&result, sessions);
+        assert_eq!(kind, mufasa::offloading::requester::EventKind::Verdict { safe, sessions });
+    }
 }
 
 /// PROTO-08 (H-08)

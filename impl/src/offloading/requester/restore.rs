@@ -132,6 +132,7 @@ const fn record(slot: &Slot) -> GroupRecord {
 
 #[cfg(test)]
 mod tests {
+    use super::{GroupRecord, Parts, Running};
     use crate::input::profile::Profile;
     use crate::offloading::requester::{
         Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, Sessions,
@@ -169,5 +170,56 @@ mod tests {
             assert!(whole.hold_until_ns().is_some() && whole.dropped(Group::Mot) == 1);
         }
         Ok(())
+    }
+    /// A change of parts that fit together, and of their table.
+    type Break = fn(&mut Parts, &mut [StationRecord; 2]);
+
+    #[test]
+    fn parts_that_do_not_fit_together_are_told() {
+        const RUNNING: Running = Running {
+            station: 2,
+            session: 2,
+            last_arrival_ns: 0,
+            last_used_ns: None,
+            local_computes: true,
+        };
+        let fits = |change: Break| {
+            let mut parts = Parts {
+                profile: Profile::HARDENED,
+                parameters: Parameters::default(),
+                groups: [GroupRecord::Local, GroupRecord::Remote(RUNNING)],
+                hold_until_ns: None,
+                area: Groups::ALL,
+                sessions: 2,
+                dropped: [0; 2],
+            };
+            let mut table = [
+                StationRecord::from_parts(2, Groups::ALL, [Some(1), Some(2)]),
+                StationRecord::from_parts(3, Groups::ALL, [None; 2]),
+            ];
+            change(&mut parts, &mut table);
+            Requester::resume(Suspended::from_parts(&parts), &mut table).is_valid()
+        };
+        assert!(fits(|_, _| ()));
+        let broken: [Break; 13] = [
+            |parts, _| parts.parameters.t_wait_ns = -1,
+            |parts, table| (parts.sessions, *table) = (-1, [StationRecord::FREE; 2]),
+            |parts, _| parts.sessions = 1,
+            |parts, _| parts.area = Groups::NONE,
+            |parts, _| parts.groups[1] = GroupRecord::Remote(Running { session: 1, ..RUNNING }),
+            |parts, _| parts.groups[1] = GroupRecord::Remote(Running { station: 7, ..RUNNING }),
+            |_, table| table[0].offer = Groups::NONE,
+            |_, table| table[1].station = -1,
+            |_, table| table[0] = StationRecord::from_parts(2, Groups::ALL, [Some(2); 2]),
+            |_, table| table[1].station = 2,
+            |_, table| table[1] = StationRecord::from_parts(3, Groups::ALL, [Some(1), None]),
+            |parts, _| {
+                parts.groups[1] = GroupRecord::Remote(Running { local_computes: false, ..RUNNING });
+            },
+            |parts, _| parts.profile = Profile::PAPER,
+        ];
+        for (index, change) in broken.into_iter().enumerate() {
+            assert!(!fits(change), "{index}");
+        }
     }
 }

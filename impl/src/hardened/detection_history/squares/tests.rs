@@ -61,9 +61,11 @@ fn what_is_in_a_box_is_found_once() {
                 beside += 1;
             }
         }
-        let nothing = [[x, x - 100.0], [y, y]];
-        for squares in [&lists[1], &kept] {
-            squares.for_each_in(&columns, nothing, |index, _| panic!("{index}"));
+        let nothing = [[[x, x - 100.0], [y, y]], [[x, x], [y, y - 100.0]]];
+        for (squares, area) in
+            [(&kept, nothing[0]), (&lists[1], nothing[0]), (&lists[1], nothing[1])]
+        {
+            squares.for_each_in(&columns, area, |index, _| panic!("{index}"));
         }
     }
     assert!(found > 10_000 && missed > 10_000 && beside > 10_000, "{found} {missed} {beside}");
