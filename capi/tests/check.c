@@ -101,7 +101,7 @@ static void verdicts(void) {
   EXPECT(report.stages[0].kind == MUFASA_OUTCOME_KIND_NOT_APPLICABLE);
   EXPECT(report.stages[0].missing == MUFASA_INPUT_TRACKS);
 
-  /* Hardened, a cell under the car of which nothing is known. */
+  /* Hardened: a cell under the car is unknown. */
   set_up(&s);
   s.cycle.profile = MUFASA_PROFILE_HARDENED;
   s.cycle.tracks = NULL;

@@ -113,7 +113,7 @@ fn a_cell_at_the_end_of_the_grid_is_found() {
     assert_eq!((witness.rule, witness.cell), (Rule::Occupied, Some((199, 10))));
 }
 
-/// INPUT-04: two points of the reference path have to be two; how far apart they are does not matter.
+/// INPUT-04: neighbouring points of the reference path have to differ; how far apart they are does not matter.
 #[test]
 fn points_of_the_route_may_be_hardly_apart() {
     let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
@@ -122,5 +122,5 @@ fn points_of_the_route_may_be_hardly_apart() {
     scene.cross_sections.insert(3, CrossSection { x: 1e-80, ..first });
     assert_eq!(scene.rule(), None);
     scene.points[0].y = 2.5;
-    assert!(scene.rule().is_some(), "it begins beside the corridor");
+    assert_eq!(scene.rule(), Some(Rule::ThetaMap), "2.5 m beside the reference path");
 }

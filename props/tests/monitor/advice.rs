@@ -78,7 +78,7 @@ fn a_clean_drive_gets_no_advice() {
     let across =
         |it: &mut Given| it.world.add([it.world.ego.x + 22.0, 0.0], [0.0, 1.0], [5.0, 0.0]);
     assert_eq!(drive(across), []);
-    // The gap is that to the nearest of those ahead: not to one behind it, nor to one behind the CAV.
+    // The gap is that to the nearest of those ahead: not to one beyond it, nor to one behind the CAV.
     let several = |it: &mut Given| {
         it.world.add([it.world.ego.x + 40.0, 0.0], [1.0, 0.0], [5.0, 0.0]);
         it.world.add([it.world.ego.x - 12.0, 0.0], [1.0, 0.0], [5.0, 0.0]);

@@ -62,22 +62,20 @@ fn too_much(cycle: &Cycle) -> Option<i64> {
     witness.compared[0].to_string().parse().ok()
 }
 
-/// H-14.42: an implementation that asks at all places at once has to bear more of them than it has room for.
+/// H-14.42: of a path that may have more than 4096 places the implementation asks each place by itself.
 #[test]
-fn beside_a_path_of_thousands_of_places() {
+fn beside_a_path_that_may_have_thousands_of_places() {
     let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
     for _ in 0..200 {
         let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
-        let cycle = fail_safe::beside_many_places(&mut Draw::new(&tape), Profile::HARDENED);
+        let cycle = fail_safe::beside_many_points(&mut Draw::new(&tape), Profile::HARDENED);
         let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
         assert_eq!(conforming(&cycle, &exact, &strict), Ok(()));
-        match exact.map(|report| report.failed_stage) {
-            Ok(None) => safe += 1,
-            Ok(Some(_)) => unsafe_ += 1,
-            Err(_) => {}
-        }
+        let Ok(report) = exact else { continue };
+        safe += u32::from(report.failed_stage.is_none());
+        unsafe_ += u32::from(report.witness().is_some_and(|it| it.rule == Rule::FailSafe));
     }
-    assert!(safe > 0 && unsafe_ > 0, "{safe} {unsafe_}");
+    assert!(safe > 50 && unsafe_ > 20, "{safe} {unsafe_}");
 }
 
 /// H-14.51: twenty detections without a track may come from the own origin of a confirmed track, or not. An implementation

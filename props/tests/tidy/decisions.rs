@@ -6,8 +6,8 @@ use syn::{BinOp, Expr, ExprBinary, UnOp};
 use super::tree::Tree;
 
 /// Conditions with a part to which more than one way leads, as the last one of `(a && b) || c`; `c || (a && b)` has none.
-/// Of the others tests that see each part true and false are MC/DC (Comar, Guitton, Hainque, Robert: Formalization and
-/// Comparison of MCDC and Object Branch Coverage Criteria, 2012). `scripts/coverage` counts these two.
+/// Of all other conditions tests that see each part true and false achieve masking MC/DC (Comar, Guitton, Hainque, Robert:
+/// Formalization and Comparison of MCDC and Object Branch Coverage Criteria, 2012). `scripts/coverage` counts both outcomes.
 pub fn with_two_ways(tree: &Tree) -> Vec<(String, String)> {
     let mut wrong = Vec::new();
     let run = ["impl/src/", "capi/src/"];

@@ -5,7 +5,7 @@ use core::ffi::CStr;
 use super::{MufasaMonitorSettings, checked};
 use crate::monitor::settings::mufasa_monitor_settings_default;
 
-/// Of settings with one change the field, and what was given and is least and most.
+/// The field, and the value, least and most, that are told of settings with one change.
 fn told(change: impl FnOnce(&mut MufasaMonitorSettings)) -> (String, [f64; 3]) {
     let mut settings = mufasa_monitor_settings_default(50_000_000);
     settings.requester.dt_max_ns = 120_000_000;

@@ -58,12 +58,15 @@ pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
     cycle
 }
 
-/// An object beside a path of more than four thousand places, those at the points among them.
-pub fn beside_many_places(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+/// An object beside a path of a thousand points, which may have more than 4096 places.
+///
+/// # Panics
+/// Without an aim of that name.
+pub fn beside_many_points(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = scene(draw, profile);
     shape::divide(&mut cycle);
     let aim = AIMS.iter().position(|(name, _)| *name == "beside");
-    decide(draw, &mut cycle, aim.unwrap_or(0));
+    decide(draw, &mut cycle, aim.expect("an aim"));
     cycle
 }
 

@@ -27,7 +27,7 @@ fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
     &mut cycle.trajectory.get_or_insert_with(empty).points
 }
 
-/// As far as the CAV needs to stop, with about a thousand points: the ways between those that it has in equal parts.
+/// Cuts the trajectory at `s_stop`, and divides each way between two points into equal parts, about 1000 in all.
 pub fn divide(cycle: &mut Cycle) {
     let (s_stop, Frame { x, y, .. }) = (base::s_stop(cycle), frame(cycle));
     let points = points(cycle);
