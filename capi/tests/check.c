@@ -374,6 +374,9 @@ static void faults_of_the_requester(void) {
          MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_requester_step(NULL, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
          MUFASA_STATUS_NULL_POINTER);
+  struct MufasaAction *odd = (struct MufasaAction *)((char *)actions + 1);
+  EXPECT(mufasa_requester_step(requester, &event, odd, MUFASA_MAX_ACTIONS, &count) ==
+         MUFASA_STATUS_MISALIGNED);
   EXPECT(mufasa_requester_step(requester, &event, NULL, MUFASA_MAX_ACTIONS, &count) ==
          MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, NULL) ==
