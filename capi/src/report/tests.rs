@@ -1,6 +1,7 @@
 //! What a caller reads of a problem of its input.
 
 use core::ffi::CStr;
+use core::fmt::Debug;
 
 use mufasa::monitor::{Advice, DropReason};
 use mufasa::report::{FailedStage, InvalidInput, Problem, Rule, Stage};
@@ -69,35 +70,19 @@ fn what_c_is_told_has_the_name_of_rust() {
         Rule::Outside,
     ];
     for it in rules {
-        assert_eq!(format!("{:?}", rule(it)), format!("{it:?}"));
+        same(rule(it), it);
     }
     for it in Stage::ALL {
-        assert_eq!(format!("{:?}", failed_stage(Some(FailedStage::Stage(it)))), format!("{it:?}"));
+        same(failed_stage(Some(FailedStage::Stage(it))), it);
     }
-    let reasons = [
-        DropReason::TooLong,
-        DropReason::OtherSession,
-        DropReason::FromTheFuture,
-        DropReason::Late,
-        DropReason::TooOld,
-        DropReason::Starved,
-        DropReason::AfterSilence,
-        DropReason::NotNewer,
-    ];
-    for it in reasons {
-        assert_eq!(format!("{:?}", MufasaDropReason::from(it)), format!("{it:?}"));
+    for it in DropReason::ALL {
+        same(MufasaDropReason::from(it), it);
     }
-    let advice = [
-        Advice::Period,
-        Advice::DetectionsNotCurrent,
-        Advice::LeadNotCurrent,
-        Advice::GridNotCurrent,
-        Advice::LeadSpeed,
-        Advice::GapTooLong,
-        Advice::GapTooShort,
-        Advice::NoTick,
-    ];
-    for it in advice {
-        assert_eq!(format!("{:?}", MufasaAdvice::from(it)), format!("{it:?}"));
+    for it in Advice::ALL {
+        same(MufasaAdvice::from(it), it);
     }
+}
+
+fn same(in_c: impl Debug, in_rust: impl Debug) {
+    assert_eq!(format!("{in_c:?}"), format!("{in_rust:?}"));
 }

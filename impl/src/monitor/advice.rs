@@ -31,7 +31,8 @@ pub enum Advice {
 }
 
 impl Advice {
-    const ALL: [Self; 8] = [
+    /// Each of them.
+    pub const ALL: [Self; 8] = [
         Self::Period,
         Self::DetectionsNotCurrent,
         Self::LeadNotCurrent,

@@ -96,6 +96,18 @@ pub enum DropReason {
 }
 
 impl DropReason {
+    /// Each of them, in this order.
+    pub const ALL: [Self; 8] = [
+        Self::OtherSession,
+        Self::TooLong,
+        Self::FromTheFuture,
+        Self::Late,
+        Self::TooOld,
+        Self::Starved,
+        Self::AfterSilence,
+        Self::NotNewer,
+    ];
+
     /// In words. Source: `spec/monitor.md#monitor`.
     pub const fn message(self) -> &'static str {
         match self {

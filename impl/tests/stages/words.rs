@@ -8,29 +8,11 @@ use mufasa::report::{InvalidInput, Problem};
 
 #[test]
 fn advice_and_reasons_have_words_of_their_own() {
-    let advice = [
-        Advice::Period,
-        Advice::DetectionsNotCurrent,
-        Advice::LeadNotCurrent,
-        Advice::GridNotCurrent,
-        Advice::LeadSpeed,
-        Advice::GapTooLong,
-        Advice::GapTooShort,
-        Advice::NoTick,
-    ];
-    let reasons = [
-        DropReason::TooLong,
-        DropReason::OtherSession,
-        DropReason::FromTheFuture,
-        DropReason::Late,
-        DropReason::TooOld,
-        DropReason::Starved,
-        DropReason::AfterSilence,
-        DropReason::NotNewer,
-    ];
-    let words = advice.map(|it| it.to_string()).into_iter().chain(reasons.map(|it| it.to_string()));
+    let [advice, reasons] =
+        [Advice::ALL.map(|it| it.to_string()), DropReason::ALL.map(|it| it.to_string())];
+    let words = advice.into_iter().chain(reasons);
     let words: BTreeSet<String> = words.filter(|text| text.len() > 10).collect();
-    assert_eq!(words.len(), advice.len() + reasons.len(), "{words:?}");
+    assert_eq!(words.len(), Advice::ALL.len() + DropReason::ALL.len(), "{words:?}");
 }
 
 #[test]
