@@ -2,6 +2,7 @@
 //! `parts`, and no part of the interface.
 
 pub mod monitor;
+pub mod steps;
 
 use core::cmp::Ordering;
 

@@ -104,10 +104,10 @@ impl Sizes {
         }
     }
 
-    /// Tracks, detections and cross sections, of which a monitor says whether they are checked in time.
-    pub(super) fn lists(&self, profile: Profile) -> [usize; 3] {
+    /// Tracks, detections, cross sections and stations, of which a monitor says whether they are checked in time.
+    pub(super) fn lists(&self, profile: Profile) -> [usize; 4] {
         let detections = if profile.looks_back() { self.detections } else { self.columns };
-        [self.tracks, detections, self.cross_sections]
+        [self.tracks, detections, self.cross_sections, self.stations]
     }
 
     /// For the lists of one call.

@@ -85,9 +85,9 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         Err(status) => return (status, told("profile", "no MufasaProfile")),
     };
     let of_requester = Requester::new(made.profile, made.requester, &mut []);
-    let [tracks, detections, cross_sections] = Sizes::of(settings).lists(made.profile);
+    let [tracks, detections, cross_sections, stations] = Sizes::of(settings).lists(made.profile);
     let of_requester = of_requester.map(drop).map_err(MonitorError::Requester);
-    let in_time = || made.check_lists(tracks, detections, cross_sections);
+    let in_time = || made.check_lists(tracks, detections, cross_sections, stations);
     let Err(error) = made.check().and(of_requester).and_then(|()| in_time()) else {
         return missing(settings).map_or((MufasaStatus::Ok, told("", "")), |field| {
             (MufasaStatus::MemoryTooSmall, told(field, AT_LEAST_1))
@@ -147,6 +147,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
                 "tracks" => "most_tracks",
                 "detections" => "most_detections",
                 "cross_sections" => "most_cross_sections",
+                "stations" => "most_stations",
                 list => list,
             };
             let told = told(field, "too many for check_time_ns; give fewer, or more time");

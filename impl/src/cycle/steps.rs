@@ -19,7 +19,7 @@ pub(crate) const SUPPORT: u64 = 64;
 pub(crate) const SEGMENT: u64 = 32;
 
 /// Sizes of the input of a cycle. Source: `spec/4-arithmetic.md#steps`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Tracks.
     pub tracks: u32,
@@ -31,6 +31,8 @@ pub struct Counts {
     pub lists: u32,
     /// Cross sections of the route.
     pub cross_sections: u32,
+    /// Stations in the table of the monitor; 0 of a cycle alone.
+    pub stations: u32,
     /// Places of the path (H-14); 0 where no rule looks at them.
     pub places: u32,
     /// Rows of cells that a disk covers; 0 without a grid.
@@ -45,26 +47,28 @@ pub struct Counts {
 pub(crate) type List = (&'static str, fn(&mut Counts) -> &mut u32);
 
 /// What may be too long: what memory is lent for, and what else a cycle may have too much of.
-pub(crate) const LISTS: [List; 6] = [
+pub(crate) const LISTS: [List; 7] = [
     ("tracks", |it| &mut it.tracks),
     ("detections", |it| &mut it.detections),
     ("cross_sections", |it| &mut it.cross_sections),
+    ("stations", |it| &mut it.stations),
     ("points", |it| &mut it.points),
     ("places", |it| &mut it.places),
     ("cells", |it| &mut it.disk_rows),
 ];
 
 impl Counts {
-    /// Memory for so many tracks, detections and cross sections, and what it does not bound as it usually is: 128
+    /// Memory for so many tracks, detections, cross sections and stations, and what it does not bound as it usually is: 128
     /// points, the 430 places at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks.
-    pub(crate) fn lent(profile: Profile, lent: [usize; 3]) -> Self {
-        let [tracks, detections, cross_sections] = lent.map(count);
+    pub(crate) fn lent(profile: Profile, lent: [usize; 4]) -> Self {
+        let [tracks, detections, cross_sections, stations] = lent.map(count);
         Self {
             tracks: tracks.min(1024),
             points: 128,
             detections: detections.min(2048),
             lists: if profile.looks_back() { 3 } else { 0 },
             cross_sections: cross_sections.min(8192),
+            stations,
             places: if looks_along(profile) { 448 } else { 0 },
             disk_rows: 18,
             cav_rows: 31,
@@ -85,6 +89,7 @@ impl Counts {
             detections: count(listed.fold(detections, usize::max)),
             lists: count(cycle.detection_history.len()),
             cross_sections: count(cycle.route.cross_sections.len()),
+            stations: 0,
             places,
             disk_rows: 0,
             cav_rows: 0,
@@ -110,6 +115,7 @@ impl Counts {
             && self.detections <= other.detections
             && self.lists <= other.lists
             && self.cross_sections <= other.cross_sections
+            && self.stations <= other.stations
             && self.places <= other.places
             && self.disk_rows <= other.disk_rows
             && self.cav_rows <= other.cav_rows
@@ -150,9 +156,16 @@ pub(crate) const fn looks_along(profile: Profile) -> bool {
     profile.has(HardenedRule::H04) || profile.has(HardenedRule::H14)
 }
 
-/// The most steps of a cycle. Source: `spec/4-arithmetic.md#steps`.
+/// So many messages, offers, ticks and other events count between two cycles.
+const MESSAGES: u64 = 64;
+
+/// The most steps of a cycle, and of what comes between two. Source: `spec/4-arithmetic.md#steps`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Steps {
+    /// 64 messages and other events.
+    pub messages: u64,
+    /// A new route.
+    pub route: u64,
     /// The checks of the input.
     pub input: u64,
     /// The stages, each without H-14.
@@ -168,9 +181,10 @@ impl Steps {
     ///
     /// Detections go to stages i and iv.
     pub fn total(&self) -> u64 {
-        let &Self { input, stages: [i, ii, iii, iv, v], without_detections, fail_safe } = self;
+        let &Self { messages, route, input, stages, without_detections, fail_safe } = self;
+        let [i, ii, iii, iv, v] = stages;
         let either = i.saturating_add(iv).max(without_detections);
-        sum([input, ii, iii, v, either, fail_safe])
+        sum([messages, route, input, ii, iii, v, either, fail_safe])
     }
 }
 
@@ -179,7 +193,7 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
     // IMPL-10
     let &Counts { tracks, points, detections, lists, cross_sections, places, .. } = counts;
     let [t, p, d] = [tracks, points, detections].map(u64::from);
-    let [s, k, lists] = [cross_sections, places, lists].map(u64::from);
+    let [s, k, lists, stations] = [cross_sections, places, lists, counts.stations].map(u64::from);
     let [disk_rows, cav_rows, way_rows] =
         [counts.disk_rows, counts.cav_rows, counts.way_rows].map(u64::from);
     let items = d.saturating_mul(lists);
@@ -200,6 +214,8 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
     };
     let has_objects = u64::from(t.max(d) > 0);
     Steps {
+        messages: product([MESSAGES, sum([128, product([6, stations])])]),
+        route: sum([64, product([16, s])]),
         input: sum([product([64, t]), product([t, t]), product([32, p]), product([128, d])]),
         stages: [
             sum([
@@ -283,6 +299,7 @@ mod tests {
                 detections: below(2049),
                 lists: below(5),
                 cross_sections: below(8193),
+                stations: below(70_000),
                 places: below(100_000),
                 disk_rows: below(3000),
                 cav_rows: below(10_000),
@@ -291,11 +308,11 @@ mod tests {
             let work_limit = i64::from(below(u32::MAX)) >> below(32);
             let parameters = Parameters { work_limit, ..Parameters::default() };
             let total = |counts| most_steps(&counts, &parameters).total();
-            let mut longer = [counts; 9];
+            let mut longer = [counts; 10];
             LISTS.iter().zip(&mut longer).for_each(|(list, it)| *(list.1)(it) += 1);
-            longer[6].cav_rows += 1;
-            longer[7].way_rows += 1;
-            longer[8].lists += 1;
+            longer[7].cav_rows += 1;
+            longer[8].way_rows += 1;
+            longer[9].lists += 1;
             for more in longer {
                 assert!(total(counts) <= total(more), "{counts:?}, {more:?}, {work_limit}");
                 // IMPL-13

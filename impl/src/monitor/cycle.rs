@@ -255,7 +255,7 @@ impl Monitor<'_> {
 /// The list that is too long for the cycle to be checked in time, whatever it holds
 /// (`spec/4-arithmetic.md#steps`): what is no longer than `known` is not.
 fn too_long(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Option<InvalidInput> {
-    let counts = Counts::of(cycle);
+    let counts = Counts { stations: known.stations, ..Counts::of(cycle) };
     if counts.is_within(known) {
         return None;
     }

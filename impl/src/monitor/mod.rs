@@ -95,7 +95,8 @@ impl<'a> Monitor<'a> {
         let capacity = lengths.capacity(settings.profile.looks_back())?;
         let detected = if settings.profile.looks_back() { capacity } else { columns.len() };
         // IMPL-11
-        let in_time = settings.in_time([rows.len(), detected, cross_sections.len()])?;
+        let in_time =
+            settings.in_time([rows.len(), detected, cross_sections.len(), stations.len()])?;
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };
         Ok(Self {

@@ -180,8 +180,8 @@ impl Settings {
         u64::try_from(steps).unwrap_or(u64::MAX)
     }
 
-    /// Whether what fits into memory for so many tracks, detections and cross sections is checked in time, with
-    /// 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
+    /// Whether what fits into memory for so many tracks, detections, cross sections and stations is checked in time,
+    /// with 64 messages and a new route between two cycles, 128 points, the places at 30 m/s and cells of 0.2 m; what is more of these, the cycle refuses where all
     /// is too much.
     ///
     /// Errors: which of the lists is too long. Source: `spec/4-arithmetic.md#steps`.
@@ -190,12 +190,13 @@ impl Settings {
         tracks: usize,
         detections: usize,
         cross_sections: usize,
+        stations: usize,
     ) -> Result<(), MonitorError> {
-        self.in_time([tracks, detections, cross_sections]).map(drop)
+        self.in_time([tracks, detections, cross_sections, stations]).map(drop)
     }
 
     /// The same, and how long everything may be.
-    pub(super) fn in_time(&self, lent: [usize; 3]) -> Result<Counts, MonitorError> {
+    pub(super) fn in_time(&self, lent: [usize; 4]) -> Result<Counts, MonitorError> {
         let counts = Counts::lent(self.profile, lent);
         self.check_steps(&counts, LISTS.get(..lent.len()).unwrap_or(&LISTS))?;
         Ok(counts)

@@ -31,6 +31,7 @@ pub mod scene;
 mod seen;
 pub mod session;
 mod states;
+pub mod steps;
 pub mod table;
 pub mod ticks;
 
@@ -161,6 +162,9 @@ harnesses! {
         verify_the_station_asked_last_waits;
     session:
         verify_data_of_the_running_session_are_judged;
+    steps:
+        verify_an_assignment_asks_for_no_more_costs_than_its_work
+        verify_a_search_looks_at_each_item_at_most_once;
     table:
         verify_a_withdrawal_forgets_the_offer_alone
         verify_a_request_is_remembered

@@ -56,7 +56,14 @@ fn the_recommended_lists_are_in_time_at_30_metres_a_second() {
     let ego = Ego { speed: 30.0, ..world.ego };
     let cycle = Cycle { parameters, ego, ..alone(&world, &road, &points, grid(0.2, &bits)) };
     let counts = Counts::of(&cycle);
-    let full = Counts { tracks: 128, detections: 256, lists: 3, cross_sections: 640, ..counts };
+    let full = Counts {
+        tracks: 128,
+        detections: 256,
+        lists: 3,
+        cross_sections: 640,
+        stations: 8,
+        ..counts
+    };
     let ps = most_steps(&full, &parameters).total() * settings.step_ps;
     assert!(Duration::from_nanos(ps / 1000) <= settings.check_time, "{ps} ps, {full:?}");
 }
@@ -96,7 +103,7 @@ fn alone<'a>(
 #[test]
 fn what_just_fits_is_taken_and_one_more_refused() {
     let lent = [30, 40, 2000];
-    let error = within(1).check_lists(lent[0], lent[1], lent[2]).expect_err("too slow");
+    let error = within(1).check_lists(lent[0], lent[1], lent[2], 8).expect_err("too slow");
     let MonitorError::TooSlow { list, given, most, steps, most_steps } = error else {
         panic!("{error}");
     };
@@ -123,7 +130,8 @@ fn a_cycle_that_may_be_late_is_refused() {
     let inputs =
         Inputs::new(now, world.ego).local_trajectory(now, &points).grid(now, map(0.01, &bits));
     let cycle = alone(&world, &road, &points, grid(0.01, &bits));
-    let total = most_steps(&Counts::of(&cycle), &cycle.parameters).total();
+    let counts = Counts { stations: 8, ..Counts::of(&cycle) };
+    let total = most_steps(&counts, &cycle.parameters).total();
     for (steps, is_late) in [(total, false), (total - 1, true)] {
         let mut lent = memory([8, 8, road.len()]);
         let mut monitor = Monitor::new(within(steps), lent.memory()).expect("in time");
@@ -144,7 +152,8 @@ fn a_cycle_that_may_be_late_is_a_cycle_all_the_same() {
         inputs.local_trajectory(now, &points).grid(now, map(resolution, &bits))
     };
     let lent = [8, 8, road.len()];
-    let Err(MonitorError::TooSlow { steps, .. }) = within(1).check_lists(lent[0], lent[1], lent[2])
+    let Err(MonitorError::TooSlow { steps, .. }) =
+        within(1).check_lists(lent[0], lent[1], lent[2], 8)
     else {
         panic!("one step is enough");
     };

@@ -43,8 +43,10 @@ const PAUSED_AFTER_NS: i64 = 20_000_000;
 /// A station of which nothing was heard for so long is lost, ns: its offers come twice a second.
 const LOST_AFTER_NS: i64 = 3_000_000_000;
 
-/// Messages that are taken in one step at most, so that a flood keeps no cycle from being decided.
+/// Messages that are taken in one step at most, and the bytes behind which none is taken, so that a flood keeps no
+/// cycle from being decided: 64 of the longest would take 8 * 10^7 instructions to decode (docs/speed.md#messages).
 const AT_ONCE: usize = 64;
+const BYTES_AT_ONCE: usize = 65_536;
 
 /// Why a vehicle cannot drive.
 #[derive(Debug, Error)]
@@ -137,8 +139,13 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         if let Some(message) = self.ahead.take() {
             self.take(now_ns, message);
         }
+        let mut taken = 0;
         for _ in 0..AT_ONCE {
+            if taken >= BYTES_AT_ONCE {
+                break;
+            }
             let Some(bytes) = self.transport.receive(now_ns) else { break };
+            taken += bytes.len();
             match message::decode(&bytes, &self.frame) {
                 Err(error) => self.tally.traffic().malformed(&error),
                 Ok(message) if message.generated_ns > now_ns => {

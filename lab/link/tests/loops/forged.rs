@@ -251,3 +251,18 @@ fn results_are_sent_in_running_sessions_alone() {
 fn at(x: f64) -> Ego {
     Ego { x, y: x, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4 }
 }
+
+/// Of the longest messages a step takes fewer than 64: it ends behind 64 KiB (docs/speed.md#messages).
+#[test]
+fn a_step_takes_few_long_messages() {
+    for (bytes, in_a_step) in [(16_384, 4), (16_385, 4), (16_383, 5), (100, 64)] {
+        let flood = move |ms: i64, by: &mut Somebody| {
+            if ms == 0 {
+                (0..200).for_each(|_| by.shout(VEHICLE, &vec![0xff; bytes]));
+            }
+        };
+        let world = World { also: Box::new(flood), until: 3, station: vec![], ..World::default() };
+        let malformed = world.drive().vehicle.traffic.malformed;
+        assert_eq!(malformed.values().sum::<u64>(), 3 * in_a_step, "{bytes}: {malformed:?}");
+    }
+}
