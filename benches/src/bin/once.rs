@@ -1,14 +1,14 @@
-//! `once TASK [1|2|3] [fail] [bare] [CALLS]`: one call of one task on W1 (W2, W3), in a
+//! `once TASK [1|2|3] [fail] [bare] [RULE] [CALLS]`: one call of one task on W1 (W2, W3), in a
 //! function of its own, whose instructions `scripts/instruction-counts` counts; more calls for a
 //! profile by samples. Tasks: `validation`, a stage (`i` to `v`), `all`, or a cycle as a vehicle
 //! asks for it (`mot`: `MotRemote`, `remote`: `AllRemote`), or that with the verdict to the requester by
 //! the plain calls (`plain`) and by the monitor (`monitor`), each with `-hardened` for that profile.
-//! `fail`: the variant of the stage that it fails; `bare`: without a detection history.
+//! `fail`: the variant of the stage that it fails; `bare`: without a detection history; a rule (`H-14`): without it.
 
 use std::error::Error;
 use std::hint::black_box;
 
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
@@ -17,7 +17,7 @@ use mufasa_benches::workload::{SIZES, Variant, Workload};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().nth(1).ok_or("which task?")?;
-    let (task, profile) = match argument.strip_suffix("-hardened") {
+    let (task, mut profile) = match argument.strip_suffix("-hardened") {
         Some(task) => (task, Profile::HARDENED),
         None => (argument.as_str(), Profile::PAPER),
     };
@@ -32,7 +32,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("3", _) => size = &SIZES[2],
             ("fail", Some((_, stage))) => variant = Variant::Fail(stage),
             ("bare", _) => bare = true,
-            (number, _) => calls = number.parse()?,
+            (other, _) => match HardenedRule::ALL.into_iter().find(|rule| rule.id() == other) {
+                Some(rule) => profile = profile.without(rule),
+                None => calls = other.parse()?,
+            },
         }
     }
     let workload = Workload::new(size, variant);

@@ -260,7 +260,7 @@ impl Workload {
     /// unknown cells.
     pub fn cycle(&self, profile: Profile, configuration: Configuration) -> Cycle<'_> {
         let stamp_ns = NOW_NS;
-        let hardened = profile == Profile::HARDENED;
+        let hardened = profile.looks_back();
         let detections: &[_] =
             if hardened { self.without_left_out().leak() } else { &self.detections };
         let tracks: &[_] = if hardened { self.without_crossing().leak() } else { &self.tracks };
