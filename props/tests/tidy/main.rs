@@ -150,6 +150,18 @@ fn intervals_are_those_of_their_counts() {
     judge(&intervals::wrong(&Tree::here()), &[]);
 }
 
+/// `UPDATE_PROBLEMS=1` writes them.
+#[test]
+fn known_problems_for_programs_are_those_of_the_page() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/known-problems.json");
+    let made = intervals::for_programs(&Tree::here());
+    if std::env::var_os("UPDATE_PROBLEMS").is_some() {
+        std::fs::write(file, &made).expect("it can be written");
+    }
+    let kept = std::fs::read_to_string(file).unwrap_or_default();
+    assert!(kept == made, "{file} is old: UPDATE_PROBLEMS=1 and this test again");
+}
+
 #[test]
 fn rules_close_the_same_findings_in_all_tables() {
     judge(&closes::wrong(&Tree::here()), &[]);
