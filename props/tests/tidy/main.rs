@@ -2,6 +2,7 @@
 //! finds wrong there; here it is asked of the repository, and in its own file of a small tree that
 //! breaks it. Exceptions stand here, each with its reason; one that is not needed any more fails.
 
+mod assumptions;
 mod circles;
 mod closes;
 mod decisions;
@@ -11,7 +12,7 @@ mod hash;
 mod intervals;
 mod length;
 mod lifted;
-#[expect(dead_code, reason = "of it the names of items are asked for alone")]
+#[expect(dead_code, reason = "of it items and comments are asked for alone")]
 #[path = "../tree/lines.rs"]
 mod lines;
 mod links;
@@ -179,6 +180,12 @@ fn rules_close_the_same_findings_in_all_tables() {
 #[test]
 fn evidence_that_is_named_exists() {
     judge(&evidence::missing(&Tree::here()), &[]);
+}
+
+/// An assumption that no code relies on is none, and one that only code knows is shown by nobody.
+#[test]
+fn assumptions_are_tied_to_the_code_that_relies_on_them() {
+    judge(&assumptions::untied(&Tree::here()), &[]);
 }
 
 /// Branches are all that rustc counts.

@@ -12,8 +12,8 @@ pub type Citations = BTreeMap<String, BTreeSet<String>>;
 /// The tests that read ids themselves.
 const BOOKS: [&str; 3] = ["props/tests/chain/", "props/tests/requirements.rs", "props/tests/tree/"];
 
-/// Items that name requirements without asking for them: that no vector shows, or that a report is about.
-const LISTS: [&str; 2] = ["NOT_SHOWN", "REQUIREMENTS"];
+/// Items that name requirements without asking for them: that no vector or record shows, or that a report is about.
+const LISTS: [&str; 3] = ["NO_RECORD", "NOT_SHOWN", "REQUIREMENTS"];
 
 /// The sources of what a vehicle runs.
 const CODE: [&str; 2] = ["impl/src/", "capi/src/"];
