@@ -1,11 +1,9 @@
-//! `Measured with: commit X` on pages with tables: that X had no changes, and what changed since.
+//! `commit X` on pages with tables that were measured: that X had no changes, and what changed since.
 
 use std::path::Path;
 use std::process::Command;
 
 use super::tree::Tree;
-
-const MARK: &str = "Measured with: commit ";
 
 /// Of each page with stamps the sources that its tables depend on.
 const SOURCES: [(&str, &str); 8] = [
@@ -23,9 +21,10 @@ const SOURCES: [(&str, &str); 8] = [
 fn stamps(tree: &Tree) -> Vec<(String, &str, bool)> {
     let pages = tree.ending(".md").flat_map(|(page, text)| {
         text.lines().enumerate().filter_map(move |(number, line)| {
-            let commit = line.split_once(MARK)?.1.split(',').next()?;
-            let clean = commit.strip_suffix(" with changes");
-            Some((format!("{page}:{}", number + 1), clean.unwrap_or(commit), clean.is_some()))
+            let (commit, rest) = line.split_once("ommit ")?.1.split_at_checked(10)?;
+            let has_changes = rest.starts_with(" with changes");
+            let is_commit = commit.bytes().all(|it| it.is_ascii_hexdigit());
+            is_commit.then(|| (format!("{page}:{}", number + 1), commit, has_changes))
         })
     });
     pages.collect()
@@ -75,16 +74,16 @@ pub fn old(tree: &Tree, root: &Path) -> Vec<String> {
 #[test]
 fn a_stamp_that_says_too_little_is_seen() {
     let of = |text: &str, page: &str| {
-        let pages = SOURCES.map(|(it, _)| (it.to_owned(), format!("{MARK}12ab, rustc.\n")));
+        let pages = SOURCES.map(|(it, _)| (it.to_owned(), "commit 0123456789, rustc\n".to_owned()));
         let more = [(page.to_owned(), text.to_owned())];
         Tree(pages.into_iter().chain(more).collect())
     };
     let page = SOURCES[0].0;
-    let mut tree = of(&format!("{MARK}12ab with changes, rustc."), page);
-    assert_eq!((wrong(&tree).len(), stamps(&tree)[0].1), (1, "12ab"));
-    assert_eq!(wrong(&of("| x |", page)).len(), 1, "no stamp");
-    assert_eq!(wrong(&of(&format!("{MARK}12ab."), "docs/b.md")).len(), 1, "no sources");
-    tree = of(&format!("by {MARK}12ab, rustc."), page);
+    let changed = of("Measured with: commit 0123456789 with changes, rustc", page);
+    assert_eq!((wrong(&changed).len(), stamps(&changed)[0].1), (1, "0123456789"));
+    assert_eq!(wrong(&of("It may commit everything.", page)).len(), 1, "no stamp");
+    assert_eq!(wrong(&of("Commit 0123456789.", "docs/b.md")).len(), 1, "no sources");
+    let tree = of("1 (commit 0123456789)", page);
     assert_eq!(wrong(&tree), []);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     assert!(old(&tree, root).iter().all(|it| it.ends_with("nobody can know")), "no such commit");
