@@ -26,16 +26,12 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use citations::{Citations, citations, is_code, strangers};
-use code::{matrix, not_implemented};
+use code::{exempt, matrix, not_implemented};
 use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
 use lock::{Lock, definitions};
 use tree::Tree;
 
 const LOCK: &str = "spec/requirements.lock";
-
-/// What names requirements without asking for them: that no vector shows, or that a report is about.
-const LISTS: [&str; 2] =
-    ["lab/conform/tests/vectors/published.rs", "lab/conform/src/judge/states.rs"];
 
 const MATRIX: &str = "docs/requirements.csv";
 
@@ -65,16 +61,20 @@ fn ill_named(tree: &Tree) -> Vec<String> {
     wrong
 }
 
-/// Requirements that no test, vector or proof cites. A vector of a rule cites all that it asks for.
-fn not_cited(found: &[Requirement], cited: &Citations) -> Vec<String> {
+/// Requirements that no test, vector or proof cites, and reasons that none needs. A vector of a rule cites all that it
+/// asks for.
+fn not_cited(tree: &Tree, found: &[Requirement], cited: &Citations) -> Vec<String> {
+    let mut exempt = exempt(tree, "Not tested");
     let of_rule = |id: &str| {
         let by = cited.get(rule(id)).into_iter().flatten();
         by.into_iter().any(|it| it.starts_with("vectors/"))
     };
-    let is_test = |by: &String| !is_code(by) && !LISTS.contains(&by.as_str());
-    let tested = |id: &str| cited.get(id).into_iter().flatten().any(is_test);
+    let tested = |id: &str| cited.get(id).into_iter().flatten().any(|by| !is_code(by));
     let without = found.iter().filter(|it| !tested(&it.id) && !of_rule(&it.id));
-    without.map(|it| format!("{}: {}", it.id, it.text)).collect()
+    let without = without.filter(|it| exempt.remove(it.id.as_str()).is_none());
+    let mut wrong: Vec<String> = without.map(|it| format!("{}: {}", it.id, it.text)).collect();
+    wrong.extend(exempt.keys().map(|id| format!("{id}: needs no reason not to be tested")));
+    wrong
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn every_requirement_is_cited_by_a_test_a_vector_or_a_proof() {
         let by: Vec<&str> = cited.get(id).into_iter().flatten().map(String::as_str).collect();
         println!("{id}\n    {text}\n    {}", by.join(" "));
     }
-    let wrong = not_cited(&found, &cited);
+    let wrong = not_cited(&tree, &found, &cited);
     assert!(wrong.is_empty(), "requirements without a test: {wrong:#?}");
 }
 
@@ -176,7 +176,7 @@ mod tests {
         let tree = tree(&[("spec/monitor.md", asked), (path, text)]);
         let found = requirements(&tree).0;
         let retired = BTreeSet::from(["A-09".to_owned()]);
-        [not_cited(&found, &citations(&tree)), strangers(&tree, &found, &retired)]
+        [not_cited(&tree, &found, &citations(&tree)), strangers(&tree, &found, &retired)]
     }
 
     #[test]

@@ -12,5 +12,6 @@ use crate::stages::distances::s_b;
 /// brakes, to stop (H-04.2).
 pub(crate) fn s_react(cycle: &Cycle<'_>, lead: &Lead) -> Real {
     let s_stop = Times::<Real>::new(cycle).s_stop;
+    //
     (s_stop - s_b(&cycle.parameters, Real::new(lead.speed))).max(Real::ZERO)
 }

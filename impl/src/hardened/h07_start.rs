@@ -61,6 +61,7 @@ pub(crate) fn corridor_failure(
     let mut hint = 0;
     points.iter().enumerate().find_map(|(index, point)| {
         let q = [point.x, point.y];
+        //
         let inside = route.in_corridor(q, &mut hint);
         (!inside).then(|| route.too_far(q, hint, Rule::Corridor, 0.0).at_point(index))
     })

@@ -50,6 +50,7 @@ impl PerGroup<Served> {
         let is_no_arrival = is_too_long || (is_in_time && (is_too_old || is_starved));
         let named = if is_no_arrival { NO_SESSION } else { session };
         let running = requester.session_of(group);
+        //
         let is_running = running.is_some_and(|it| (it.station, it.session) == (station, session));
         let kind = EventKind::Data { station, group, session: named, generated_ns };
         let by_kind = self.step(requester, &Event { t_ns: now_ns, kind }, false, period_ns)?;

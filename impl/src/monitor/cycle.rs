@@ -259,7 +259,7 @@ fn too_long(settings: &Settings, known: &Counts, cycle: &Cycle<'_>) -> Option<In
     if counts.is_within(known) {
         return None;
     }
-    // IMPL-13
+    // IMPL-13; A-14
     let error = settings.check_steps(&counts, &LISTS).err()?;
     let field = if let MonitorError::TooSlow { list, .. } = error { list } else { "check_time" };
     Some(InvalidInput { field, index: None, problem: Problem::TooMany })

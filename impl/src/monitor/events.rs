@@ -66,6 +66,7 @@ impl Monitor<'_> {
 
     /// From now on these groups may be offloaded (CODM). Source: `spec/2-offloading.md#requester`.
     pub fn area(&mut self, now: Time, groups: Groups) -> Actions {
+        //
         self.step_alone(now, EventKind::Area { groups })
     }
 

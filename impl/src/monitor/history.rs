@@ -68,7 +68,7 @@ impl<'a> History<'a> {
     /// Whether a list is kept that is from 500 ms to 1 s old at this time: soon after it a cycle finds how
     /// what it sees has moved (H-14).
     pub(crate) fn reaches_back(&self, now_ns: i64) -> bool {
-        // MON-43
+        // MON-43; A-03
         let ages = REACH_NS..=LONGEST_NS;
         self.kept.iter().flatten().any(|kept| ages.contains(&elapsed_ns(kept.stamp_ns, now_ns)))
     }

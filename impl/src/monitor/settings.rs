@@ -140,7 +140,7 @@ impl Settings {
         if stops && tau <= self.period.as_secs_f64() {
             return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
         }
-        // MON-29
+        // MON-29; A-17
         if !(0..i64::MAX).contains(&self.sessions_before) {
             return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
         }
@@ -165,7 +165,7 @@ impl Settings {
     /// Until when what a cycle examines covers the CAV: `tau` after it, which the paper profile does not have.
     #[allow(clippy::cast_possible_truncation, reason = "rounded down; times saturate")]
     pub(crate) fn brake_by(&self, now_ns: i64) -> Option<Time> {
-        // MON-40
+        // MON-40
         let tau_ns = (self.stages.tau * 1e9) as i64;
         let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
         // MON-41
@@ -174,6 +174,7 @@ impl Settings {
 
     /// The most steps that a run of the stages may take: a cycle may run them twice where it supervises.
     pub(super) fn steps_in_time(&self) -> u64 {
+        //
         let ps = self.check_time.as_nanos().saturating_mul(1000);
         let steps = ps.checked_div(u128::from(self.step_ps)).unwrap_or(u128::MAX);
         let steps = if self.supervise_local { steps >> 1 } else { steps };

@@ -7,7 +7,7 @@
 //! rounded the bound is 0, and an equality is decided as in the model. Each bound is argued beside
 //! its operation and tested against rational numbers (`rounding/tests.rs`). Only + - * / and the
 //! correctly rounded square root are used, never a fused operation. Comparisons answer "certainly"
-//! or "possibly"; a NaN is never certain.
+//! or "possibly"; a NaN is never certain. Doubles are those of A-18.
 
 mod error_free;
 

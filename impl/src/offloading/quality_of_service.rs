@@ -109,7 +109,7 @@ impl Arrivals {
 /// The violation, if an element that was generated at `generated_ns` and arrives at `now_ns` is
 /// too old or from the future. Source: `spec/2-offloading.md#quality-of-service`.
 pub fn latency_violation(now_ns: i64, generated_ns: i64, limits: Limits) -> Option<Violation> {
-    // QOS-05
+    // QOS-05; A-05
     if generated_ns > now_ns {
         Some(Violation::FromTheFuture)
     } else if difference(now_ns, generated_ns) > i128::from(limits.l_max_ns) {

@@ -100,11 +100,13 @@ pub(crate) fn s_cav<N: Number>(parameters: &Parameters, v_now: f64) -> N {
 
 /// `s_b(v)` = v^2 / (2 `a_b`), m.
 pub(crate) fn s_b<N: Number>(parameters: &Parameters, v: N) -> N {
+    //
     v.times(v).divided_by(N::from_double(2.0 * parameters.a_b))
 }
 
 /// `s_follow` = max(`s_b(v_now)` - `s_b(v_lead)`, 0) + `s_CAV`, m.
 pub(crate) fn s_follow<N: Number>(parameters: &Parameters, v_now: f64, v_lead: f64) -> N {
+    //
     let ways = [v_now, v_lead].map(|v| s_b(parameters, N::from_double(v)));
     follow(ways, s_cav(parameters, v_now))
 }

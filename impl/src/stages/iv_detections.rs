@@ -16,7 +16,7 @@ pub(crate) fn trajectory_with_detections(
     lead: Option<&Lead>,
 ) -> Option<Witness> {
     let follow = |lead: &Lead| s_follow(&cycle.parameters, cycle.ego.speed, lead.speed);
-    // S4-02
+    // S4-02; A-02
     gap_failure(lead, follow).or_else(|| collision(cycle, trajectory, detections, lead))
 }
 
@@ -26,6 +26,7 @@ pub(crate) fn gap_failure(
     needed: impl FnOnce(&Lead) -> Real,
 ) -> Option<Witness> {
     let lead = lead?;
+    //
     let (gap, needed) = (Real::new(lead.gap), needed(lead));
     gap.possibly_at_most(needed).then(|| Witness::of(Rule::Gap, [gap.value(), needed.value()]))
 }
@@ -40,6 +41,7 @@ fn collision(
     // S4-02
     let points = points_examined(cycle, trajectory.points, Horizon::Valid(lead));
     let motion = CavMotion::new(cycle, points, detections.stamp_ns);
+    //
     let found = motion.first_collision(detections.items.iter().map(MovingRectangle::detection));
     found.map(|Collision { point, object, compared }| {
         let witness = Witness::of(Rule::Collision, compared).at_point(point);

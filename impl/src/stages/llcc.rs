@@ -123,6 +123,7 @@ impl Pose {
 
 /// The CAV's rectangle at a pose: shifted forward by `center_offset`.
 pub(crate) fn footprint(ego: &Ego, pose: &Pose) -> Rectangle {
+    //
     let direction = vector(pose.heading);
     let centre = pose.at + direction.times(Real::new(ego.center_offset));
     Rectangle { centre, direction, length: ego.length, width: ego.width }

@@ -25,7 +25,7 @@ pub struct Given {
 /// Whether data with this stamp are current: 0 <= now - stamp <= `max_age`, all in ns, `max_age` at
 /// most 60 s. Source: `spec/3-stages.md#schedule`.
 pub fn is_current(stamp_ns: i64, now_ns: i64, max_age_ns: i64) -> bool {
-    // SCHED-12
+    // SCHED-12; A-05
     let age_ns = elapsed_ns(stamp_ns, now_ns);
     0 <= age_ns && age_ns <= max_age_ns
 }

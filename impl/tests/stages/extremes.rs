@@ -34,6 +34,10 @@ fn many_places_are_no_work_where_a_box_tells() {
     // 1 cm a place, and half a car less: one point before them.
     let way = 1e7 - 2.0 - 0.005 - 1.4;
     assert!((witness.compared[0] - way).abs() < 0.011, "{witness:?}");
+    // H-14.50, H-14.9
+    assert!((witness.compared[1] - 189_301_500.0).abs() < 1e-3, "{witness:?}");
+    let place = witness.point.expect("a place") - scene.points.len();
+    assert!((place as f64 * 0.01 - way).abs() < 0.02, "{witness:?}");
 }
 
 /// Behind the CAV, before the end of the path, everywhere and nowhere, with whatever velocity.

@@ -6,11 +6,14 @@ use super::ids::{Requirement, ids_in, prefix, rule};
 use super::lines::{Place, lines};
 use super::tree::Tree;
 
-/// Of each id what cites it: the name of a function or type of Rust, or a file; of code both.
+/// Of each id what cites it: the name of a function or type of Rust, or a file; of code and proofs both.
 pub type Citations = BTreeMap<String, BTreeSet<String>>;
 
 /// The tests that read ids themselves.
 const BOOKS: [&str; 3] = ["props/tests/chain/", "props/tests/requirements.rs", "props/tests/tree/"];
+
+/// Items that name requirements without asking for them: that no vector or record shows, or that a report is about.
+const LISTS: [&str; 3] = ["NO_RECORD", "NOT_SHOWN", "REQUIREMENTS"];
 
 /// The sources of what a vehicle runs.
 const CODE: [&str; 2] = ["impl/src/", "capi/src/"];
@@ -18,6 +21,11 @@ const CODE: [&str; 2] = ["impl/src/", "capi/src/"];
 /// Whether it is code that cites, and no test of it.
 pub fn is_code(by: &str) -> bool {
     CODE.iter().any(|folder| by.starts_with(folder)) && !by.ends_with("/tests.rs")
+}
+
+/// Whether it is a proof: a law, harness, theorem or exploration, or the statement of one.
+pub fn is_proof(by: &str) -> bool {
+    by.starts_with("proofs/") && !by.contains("/tests/")
 }
 
 /// All that tests, vectors, proofs and code cite.
@@ -65,11 +73,15 @@ fn of_vector(line: &str) -> impl Iterator<Item = &str> {
 /// Ids of a file of Rust, each with the item whose comment or body cites it, else with the file.
 fn of_rust<'a>(path: &str, text: &'a str) -> Vec<(&'a str, String)> {
     let cited = lines(text).into_iter().flat_map(|line| {
-        let by = if let Place::Item(name) = line.at { name } else { path };
+        let by = match line.at {
+            Place::Item(name) if is_proof(path) => format!("{path}::{name}"),
+            Place::Item(name) => name.to_owned(),
+            Place::Head => path.to_owned(),
+        };
         let ids = ids_in(line.code).into_iter().chain(ids_in(line.comment));
-        ids.map(move |id| (id, by.to_owned()))
+        ids.map(move |id| (id, by.clone()))
     });
-    cited.collect()
+    cited.filter(|(_, by)| !LISTS.contains(&by.as_str())).collect()
 }
 
 /// Ids of a source, each with the item whose comment cites it. A comment names rules as a whole for many a

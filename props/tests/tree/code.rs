@@ -3,24 +3,24 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::citations::{Citations, is_code};
+use super::citations::{Citations, is_code, is_proof};
 use super::ids::{PREFIXES, Requirement, prefix, rule};
 use super::tree::Tree;
 
-/// Of each prefix the folders of its code, none where its column has `-`.
-fn folders(tree: &Tree) -> BTreeMap<&str, Vec<&str>> {
+/// Of each prefix the folders of its code, none where its column has `-`, and its relevance.
+fn prefixes(tree: &Tree) -> BTreeMap<&str, (Vec<&str>, &str)> {
     let row = |line| {
         let cells: Vec<&str> = str::split(line, '|').map(str::trim).collect();
-        let [_, name, _, folders, _] = cells[..] else { return None };
+        let [_, name, _, folders, relevance, _] = cells[..] else { return None };
         let of = folders.split(", ").map(|it| it.trim_matches('`')).filter(|it| *it != "-");
-        Some((name.trim_matches('`'), of.collect()))
+        Some((name.trim_matches('`'), (of.collect(), relevance)))
     };
     table(tree).lines().filter_map(row).collect()
 }
 
-/// The requirements that are not in the code, `* MON-01: why`.
-fn exempt(tree: &Tree) -> BTreeMap<&str, &str> {
-    let list = table(tree).split("## Not in the code").nth(1).unwrap_or_default();
+/// The requirements that are not in the code, or not tested, `* MON-01: why`.
+pub fn exempt<'t>(tree: &'t Tree, heading: &str) -> BTreeMap<&'t str, &'t str> {
+    let list = table(tree).split("\n## ").find(|it| it.starts_with(heading)).unwrap_or_default();
     let items = list.lines().filter_map(|line| line.strip_prefix("* ")?.split_once(": "));
     items.collect()
 }
@@ -31,10 +31,10 @@ fn table(tree: &Tree) -> &str {
 
 /// Requirements that the code of their prefix does not cite, and reasons that none needs.
 pub fn not_implemented(tree: &Tree, found: &[Requirement], cited: &Citations) -> Vec<String> {
-    let (folders, mut exempt) = (folders(tree), exempt(tree));
+    let (prefixes, mut exempt) = (prefixes(tree), exempt(tree, "Not in the code"));
     let mut wrong = Vec::new();
     for Requirement { id, text, .. } in found {
-        let Some(of) = folders.get(prefix(id)) else {
+        let Some((of, _)) = prefixes.get(prefix(id)) else {
             wrong.push(format!("{id}: {PREFIXES} does not say where its code is"));
             continue;
         };
@@ -50,25 +50,34 @@ pub fn not_implemented(tree: &Tree, found: &[Requirement], cited: &Citations) ->
 
 /// A row of comma-separated values for each requirement.
 pub fn matrix(tree: &Tree, found: &[Requirement], cited: &Citations) -> String {
-    let exempt = exempt(tree);
+    let (prefixes, exempt) = (prefixes(tree), exempt(tree, "Not in the code"));
     let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
-    let mut out = "id,text,code,tests-vectors-proofs\n".to_owned();
+    let mut out = "id,relevance,method,text,code,tests,vectors,proofs\n".to_owned();
     for Requirement { id, text, .. } in found {
-        let by = cited.get(id).into_iter().flatten().map(String::as_str);
-        let (mut code, mut tests): (Vec<&str>, Vec<&str>) = by.partition(|by| is_code(by));
+        let relevance = prefixes.get(prefix(id)).map_or("", |(_, it)| it);
+        let of = |id: &str| cited.get(id).into_iter().flatten().map(String::as_str);
+        let (mut code, by): (Vec<&str>, Vec<&str>) = of(id).partition(|by| is_code(by));
         code.extend(exempt.get(id.as_str()));
-        let whole = cited.get(rule(id)).filter(|_| rule(id) != id).into_iter().flatten();
-        tests.extend(whole.map(String::as_str).filter(|by| by.starts_with("vectors/")));
-        let cells = [text, &code.join("; "), &tests.join("; ")].map(|cell| quoted(cell));
-        let _ = writeln!(out, "{id},{}", cells.join(","));
+        let (proofs, by): (Vec<&str>, Vec<&str>) = by.into_iter().partition(|by| is_proof(by));
+        let is_vector = |by: &&str| by.starts_with("vectors/");
+        let (mut vectors, tests): (Vec<&str>, Vec<&str>) = by.into_iter().partition(is_vector);
+        vectors.extend(of(rule(id)).filter(|by| rule(id) != id && is_vector(by)));
+        let method = match (proofs.is_empty(), tests.is_empty() && vectors.is_empty()) {
+            (true, true) => "none",
+            (true, false) => "tested",
+            (false, true) => "proved",
+            (false, false) => "both",
+        };
+        let lists = [code, tests, vectors, proofs].map(|it| quoted(&it.join("; "))).join(",");
+        let _ = writeln!(out, "{id},{relevance},{method},{},{lists}", quoted(text));
     }
     out
 }
 
 #[test]
 fn what_no_code_cites_is_seen() {
-    let page = "| prefix | where | code |\n|---|---|---|\n| `A` | [a](x.md) | `impl/src` |\n\
-                | `B` | [b](x.md) | - |\n\n## Not in the code\n\n* A-02: follows\n* A-03: old\n";
+    let page = "| prefix | where | code | relevance |\n|---|---|---|---|\n| `A` | [a](x.md) | `impl/src` | goal |\n\
+                | `B` | [b](x.md) | - | none |\n\n## Not in the code\n\n* A-02: follows\n* A-03: old\n";
     let tree = Tree([(PREFIXES.to_owned(), page.to_owned())].into());
     let asked = |id: &str| Requirement {
         id: id.to_owned(),
@@ -86,8 +95,10 @@ fn what_no_code_cites_is_seen() {
     ];
     assert_eq!(not_implemented(&tree, &found, &cited), expected);
     let rows = matrix(&tree, &found[1..3], &cited);
-    assert!(
-        rows.ends_with("\nA-03,\"It MUST \"\"b\"\".\",\"impl/src/a.rs::f; old\",\"\"\n"),
-        "{rows}"
-    );
+    let row = "\nA-03,goal,none,\"It MUST \"\"b\"\".\",\"impl/src/a.rs::f; old\",\"\",\"\",\"\"\n";
+    assert!(rows.ends_with(row), "{rows}");
+    let by = ["a_test", "proofs/src/a.rs::law", "vectors/a.jsonl"].map(str::to_owned);
+    let rows = matrix(&tree, &found[..1], &[("A-01".to_owned(), by.into())].into());
+    assert!(rows.ends_with("\"a_test\",\"vectors/a.jsonl\",\"proofs/src/a.rs::law\"\n"), "{rows}");
+    assert!(rows.contains("A-01,goal,both,"), "{rows}");
 }

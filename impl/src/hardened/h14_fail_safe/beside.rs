@@ -68,6 +68,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         if lane.is_open == Some(false) || !object.comes_towards && !self.is_straight() {
             return false;
         }
+        //
         let Some((away, needed)) = self.needed(object, lane.hint, work) else { return false };
         lane.has_room_for(away.value(), needed.value()).unwrap_or_else(|| {
             if lane.is_closed_up {

@@ -112,6 +112,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
     /// The first place where the object may meet the CAV, if that is before the place with that number, and
     /// the object is examined.
     pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
+        //
         let (cycle, object) = (self.cycle(), self.plainly(motion));
         let exact = LazyCell::new(|| Exact::new(cycle, motion));
         let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
@@ -244,7 +245,7 @@ impl<'c, 'a> Places<'c, 'a> {
         if !exact.moves || !across.certainly_at_most(exact.speed * most) {
             return false;
         }
-        // H-14.35; H-14.36
+        // H-14.35; H-14.36; A-23
         if exact.is_behind && exact.comes_across && across.certainly_at_most(along) {
             return true;
         }
@@ -267,6 +268,7 @@ impl<'c, 'a> Places<'c, 'a> {
         let parameters = &self.cycle().parameters;
         let [tau, t_yield, a_yield] =
             [parameters.tau, parameters.t_yield, parameters.a_yield].map(Real::new);
+        //
         let yielded = tau + t_yield + speed.over(a_yield + a_yield);
         self.path.times.until_stop.max(yielded)
     }
@@ -278,6 +280,7 @@ const INNER: f64 = 0.3;
 /// By how much half the CAV is wider (H-14.26), m: as far as it is aside of the trajectory's first
 /// point. One that begins beside it does not say where it joins.
 fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
+    //
     start.map_or(Real::ZERO, |start| {
         let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
         from.cross(vector([start.cos, start.sin])).abs()

@@ -85,7 +85,7 @@ impl Motions<'_, '_, '_> {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
             let by = self.explained.by(detection, scratch.rows, scratch.columns);
             self.anywhere((detection, now), &motion, by, scratch);
-            // H-14.21
+            // H-14.21; A-03
             if by.is_none() {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);

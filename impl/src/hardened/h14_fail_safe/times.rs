@@ -28,6 +28,7 @@ pub(crate) struct Times<N> {
 impl<N: Number> Times<N> {
     pub(crate) fn new(cycle: &Cycle<'_>) -> Self {
         let parameters = &cycle.parameters;
+        //
         let [v, a_b, a_max, tau] =
             [cycle.ego.speed, parameters.a_b, parameters.a_max, parameters.tau].map(N::from_double);
         let half = N::from_double(0.5);

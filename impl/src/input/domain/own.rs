@@ -7,7 +7,7 @@ use crate::input::parameters::Parameters;
 const AT: Place = Place { index: None };
 
 pub(crate) fn check_parameters(parameters: &Parameters) -> Check {
-    // DOM-01
+    // DOM-01; A-20
     macro_rules! check {
         ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
             $(AT.$number(concat!("parameters.", stringify!($name)), parameters.$name, $domain)?;)*

@@ -269,7 +269,7 @@ impl Requester<'_> {
             }
             (Some(_), Farewell::Silent) | (None, _) => {}
         }
-        // H-08.3
+        // H-08.3; A-11
         if !left.local_computes() {
             *out.services.get_mut(group) = Some(Action::Activate(group));
         }

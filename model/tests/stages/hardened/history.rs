@@ -85,7 +85,7 @@ fn a_track_is_backed_by_its_own_origins_in_two_lists() {
 }
 
 /// The detection of a track is nearer than theta_track_max, and a confirmed one has it for itself.
-/// SEEN-09, SEEN-10.
+/// SEEN-04, SEEN-09, SEEN-10.
 #[test]
 fn a_confirmed_track_has_a_detection_of_its_own() {
     let with = |y: f64| {
@@ -99,6 +99,11 @@ fn a_confirmed_track_has_a_detection_of_its_own() {
     assert_eq!((far.detection, far.is_backed, far.is_confirmed), (None, true, false));
     assert!(is_ambiguous(&with(1.0 - 0.9e-6)) && is_ambiguous(&with(1.0 + 0.9e-6)));
     assert!(!is_ambiguous(&with(1.0 - 1.1e-6)) && !is_ambiguous(&with(1.0 + 1.1e-6)));
+    // Its place is that of now, 1 m on.
+    let mut older = with(1.0f64.next_down());
+    let list = older.tracks.as_mut().expect("set");
+    (list.stamp_ns, list.items[0].x) = (list.stamp_ns - 125_000_000, 19.0);
+    assert_eq!(all_seen(&older)[0].detection, Some(0));
     // Another track with the same detection.
     let mut two = with(0.0);
     two.tracks.as_mut().expect("set").items.push(track(2, 20.0, 0.5));
