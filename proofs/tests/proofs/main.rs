@@ -52,6 +52,22 @@ fn every_entry_says_whether_cbmc_proves_it() {
     }
 }
 
+/// The workflow of Kani has the shards of the file, and asks as `mufasa verify` does.
+#[test]
+fn the_workflow_asks_for_the_shards_of_the_file() {
+    let workflow = include_str!("../../../.github/workflows/kani.yml");
+    let shards: BTreeSet<i64> = expected::expected().iter().filter_map(|one| one.shard).collect();
+    let listed = workflow.lines().find_map(|line| line.trim().strip_prefix("shard: "));
+    assert_eq!(listed, Some(format!("{:?}", Vec::from_iter(shards)).as_str()));
+    let (_, behind) = workflow.split_once("args: >-").expect("arguments");
+    let (asked, _) = behind.split_once("${{ steps.shard.outputs.harnesses }}").expect("harnesses");
+    let checks = include_str!("../../../lab/oracle/src/verify/checks.toml");
+    let start = "command = [\"cargo\", \"kani\", ";
+    let call = checks.lines().find_map(|line| line.strip_prefix(start)).expect("a check by Kani");
+    let call = call.replace(['"', ',', ']'], "");
+    assert_eq!(asked.split_whitespace().collect::<Vec<_>>().join(" "), call);
+}
+
 /// The rows of the document are about the harnesses of the file, each once an engine of compiled code,
 /// exhaustion or sampling.
 #[test]
