@@ -74,7 +74,7 @@ pub(crate) const PLACES: usize = 12;
 /// let other = Monitor::new(settings, lent.memory())?;
 ///
 /// assert_eq!(size_of::<Lent>(), 80_864);
-/// assert!(size_of_val(&monitor) < 2112 && size_of_val(&other) < 2112);
+/// assert!(size_of_val(&monitor) < 2120 && size_of_val(&other) < 2120);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
