@@ -309,7 +309,9 @@ static void a_status_of_the_settings_has_a_field(void) {
   EXPECT(problem.value == 4096 && problem.most >= 640 && problem.most < 4096);
   it.most_cross_sections = (uint32_t)problem.most;
   is_about(&it, MUFASA_STATUS_OK, "");
-  it.most_cross_sections = 4096;
+  it.most_stations = 1000000;
+  problem = is_about(&it, MUFASA_STATUS_TOO_SLOW, "most_stations");
+  EXPECT(problem.value == 1000000 && problem.most >= 8 && problem.most < 1000000);
   it.check_time_ns = INT64_MAX;
   is_about(&it, MUFASA_STATUS_OK, "");
   it = settings();

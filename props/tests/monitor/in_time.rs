@@ -38,6 +38,25 @@ fn the_recommended_lists_are_checked_in_time() {
     assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
 }
 
+/// IMPL-11: 64 messages and a route count, too: a table of many stations is refused, since each message looks into it.
+#[test]
+fn messages_and_routes_between_two_cycles_count() {
+    let check = |stations| Settings::new(Duration::from_millis(50)).check_lists(8, 8, 8, stations);
+    let Err(MonitorError::TooSlow { list: "stations", most, .. }) = check(1_000_000) else {
+        panic!("in time");
+    };
+    let most = usize::try_from(most).expect("an index");
+    assert!(10_000 < most && check(most).is_ok() && check(most + 1).is_err(), "{most}");
+    let of = |cross_sections, stations| {
+        let counts = Counts { cross_sections, stations, ..Counts::default() };
+        most_steps(&counts, &Parameters::default())
+    };
+    assert_eq!([of(0, 0).messages, of(0, 8).messages, of(0, 9).route], [8192, 11_264, 64]);
+    assert_eq!(of(640, 0).route, 64 + 16 * 640);
+    let sum = of(640, 8).total() - of(640, 0).total();
+    assert_eq!(sum, 64 * 6 * 8);
+}
+
 /// IMPL-13: full lists of docs/configuration.md with its `tau`, a point each 0.1 s and cells of 0.2 m.
 #[test]
 fn the_recommended_lists_are_in_time_at_30_metres_a_second() {
