@@ -180,16 +180,21 @@ impl Verdicts {
 
     fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {
         match decision {
-            Decision::Safe { tracks, trajectory, report, .. } => MufasaDecision {
-                report: report::report_of(report),
-                tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
-                trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
-                // MON-40, MON-41
-                brake_by: trajectory.and_then(|it| it.brake_by()).map_or(NEVER, time),
-                actions: actions_of(actions),
-                local_services: EVERY_GROUP,
-                advice: MufasaAdvice::None,
-            },
+            Decision::Safe { tracks, trajectory, report, .. } => {
+                let has_tracks = tracks.is_some_and(|list| self.keep_tracks(&list));
+                let has_trajectory = trajectory.is_some_and(|it| self.keep_trajectory(&it));
+                MufasaDecision {
+                    report: report::report_of(report),
+                    // After the last use of all of `self`, which would end them.
+                    tracks: if has_tracks { &raw const self.track_list } else { null() },
+                    trajectory: if has_trajectory { &raw const self.trajectory } else { null() },
+                    // MON-40, MON-41
+                    brake_by: trajectory.and_then(|it| it.brake_by()).map_or(NEVER, time),
+                    actions: actions_of(actions),
+                    local_services: EVERY_GROUP,
+                    advice: MufasaAdvice::None,
+                }
+            }
             Decision::Unsafe { report, .. } => MufasaDecision {
                 report: match report {
                     Ok(report) => report::report_of(report),
@@ -205,26 +210,27 @@ impl Verdicts {
         }
     }
 
-    fn keep_tracks(&mut self, list: &Verified<'_, TrackList<'_>>) -> *const MufasaTrackList {
+    /// Whether the list is there for C: it fits.
+    fn keep_tracks(&mut self, list: &Verified<'_, TrackList<'_>>) -> bool {
         if list.items.len() > self.tracks.len() {
-            return null();
+            return false;
         }
         self.tracks.iter_mut().zip(list.items).for_each(|(place, it)| *place = track(it));
         let (items, items_len) = (self.tracks.as_ptr(), list.items.len());
         self.track_list =
             MufasaTrackList { stamp: MufasaTime { ns: list.stamp_ns }, items, items_len };
-        &raw const self.track_list
+        true
     }
 
-    fn keep_trajectory(&mut self, it: &Verified<'_, Trajectory<'_>>) -> *const MufasaTrajectory {
+    fn keep_trajectory(&mut self, it: &Verified<'_, Trajectory<'_>>) -> bool {
         if it.points.len() > self.points.len() {
-            return null();
+            return false;
         }
         self.points.iter_mut().zip(it.points).for_each(|(place, it)| *place = point(it));
         let (points, points_len) = (self.points.as_ptr(), it.points.len());
         self.trajectory =
             MufasaTrajectory { stamp: MufasaTime { ns: it.stamp_ns }, points, points_len };
-        &raw const self.trajectory
+        true
     }
 }
 
