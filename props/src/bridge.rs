@@ -64,12 +64,14 @@ mod profile;
 mod requester;
 mod verdict;
 
-pub use self::cycle::{Owned, cycle_parameters, from_impl, route_to_impl, to_impl};
+pub use self::cycle::{
+    Owned, cycle_parameters, from_impl, point_from_impl, route_to_impl, to_impl, track_from_impl,
+};
 pub use self::monitor::{Bridged, lent, settings_to_impl};
 pub use self::profile::{profile_from_impl, profile_to_impl, rule_to_impl};
 pub use self::requester::{
     action_from_impl, configuration_from_impl, event_to_impl, group_from_impl, group_to_impl,
-    groups_to_impl, parameters_to_impl, source_from_impl, state_from_impl,
+    groups_to_impl, parameters_from_impl, parameters_to_impl, source_from_impl, state_from_impl,
 };
 pub use self::verdict::{
     invalid_input_from_impl, outcome_from_impl, report_from_impl, report_to_impl, stage_to_impl,

@@ -1,6 +1,7 @@
 //! Records and answers as JSON, one per line (`spec/5-interfaces.md`).
 
 pub mod answer;
+pub mod calls;
 pub mod composition_answer;
 pub mod error;
 pub mod files;

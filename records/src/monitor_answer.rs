@@ -4,7 +4,7 @@ use mufasa_model::monitor::Monitor;
 use mufasa_model::monitor::messages::{Answer, Brake, Decision, Dropped, Verified};
 use mufasa_model::report::{FailedStage, Input, InvalidInput, Reading, Report};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::offloading_answer::{ActionAnswer, StateAnswer};
 use crate::record::monitor::Sequence;
@@ -66,7 +66,9 @@ pub struct DecisionAnswer {
 }
 
 /// An element that comes out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+#[derive(
+    Clone, Copy, Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize,
+)]
 pub struct VerifiedAnswer {
     /// Its stamp.
     pub stamp_ns: i64,
@@ -167,7 +169,8 @@ impl DecisionAnswer {
 }
 
 impl VerifiedAnswer {
-    fn new(verified: Verified) -> Self {
+    /// As answers name it.
+    pub fn new(verified: Verified) -> Self {
         let Verified { stamp_ns, remote } = verified;
         let (station, session) =
             remote.map_or((0, None), |(station, session)| (station, Some(session)));

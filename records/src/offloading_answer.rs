@@ -101,7 +101,8 @@ impl StateAnswer {
 }
 
 impl ActionAnswer {
-    fn new(action: Action) -> Self {
+    /// As answers name it.
+    pub fn new(action: Action) -> Self {
         match action {
             Action::Request { station, group, session } => {
                 Self::Send { send: Send::Request, station, group: Word(group), session }

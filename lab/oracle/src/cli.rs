@@ -22,8 +22,8 @@ use clap::error::ErrorKind;
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use self::arguments::{
-    CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ManArguments,
-    OracleArguments, SchemasArguments, VectorsArguments, file_or, folder_or,
+    CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, IntegrateArguments,
+    ManArguments, OracleArguments, SchemasArguments, VectorsArguments, file_or, folder_or,
 };
 use self::conform::{ConformArguments, MergeCommand};
 #[cfg(feature = "link")]
@@ -38,6 +38,7 @@ use crate::evaluate::arguments::EvaluateArguments;
 #[cfg(feature = "link")]
 use crate::evaluate::merge::MergeArguments;
 use crate::explore;
+use crate::integrate;
 use crate::parameters_file;
 use crate::prove;
 use crate::slow;
@@ -77,6 +78,8 @@ enum Command {
     Oracle(OracleArguments),
     /// Hold a program under test against the exact model.
     Conform(ConformArguments),
+    /// Replay the log of a vehicle's loop around the monitor: which duties of the safety manual it breaks.
+    Integrate(IntegrateArguments),
     /// Find all compositions of a service set.
     Compose(ComposeArguments),
     /// Write the vectors: lines with the answers that they must get, their schemas, a README.
@@ -150,6 +153,7 @@ pub fn main() -> ExitCode {
             }
         }
         Command::Conform(arguments) => conform(arguments, &mut out),
+        Command::Integrate(IntegrateArguments { log }) => integrate::run(&log, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
         Command::Vectors(VectorsArguments { out: folder }) => {
             written::vectors(&folder_or(folder, "vectors"), &mut out)

@@ -4,6 +4,7 @@ pub mod arguments;
 mod falsify;
 mod log;
 mod maps;
+pub mod margins;
 pub mod merge;
 mod parts;
 mod replay;
@@ -63,6 +64,7 @@ pub fn run(arguments: &EvaluateArguments, stop: &AtomicBool, out: &mut impl Writ
         Some(Asked::Replay(it)) => return replay::run(it, jobs, out),
         Some(Asked::Falsify(it)) => return falsify::run(it, stop, out),
         Some(Asked::Scenes(it)) => return scenes::run(it, out),
+        Some(Asked::Margins(it)) => return margins::run(it, out),
         None => (&arguments.size, "failures"),
         Some(Asked::Failures(size)) => (size, "failures"),
         Some(Asked::Readings(size)) => (size, "readings"),

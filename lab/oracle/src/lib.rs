@@ -8,6 +8,7 @@ mod ended;
 #[cfg(feature = "link")]
 pub mod evaluate;
 pub mod explore;
+pub mod integrate;
 mod limits;
 #[cfg(feature = "link")]
 mod link;

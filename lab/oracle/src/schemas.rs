@@ -9,6 +9,7 @@ use mufasa_drives::check;
 use mufasa_link::station::StationSummary;
 #[cfg(feature = "link")]
 use mufasa_link::vehicle;
+use mufasa_records::calls::Line;
 use mufasa_records::{files, schema};
 #[cfg(feature = "link")]
 use mufasa_sim::experiment::made::Made;
@@ -23,7 +24,7 @@ use crate::prove::claim::Claim;
 use crate::verify::evidence::Evidence;
 
 /// The schemas by the stem of their file's name: those of records and answers, of a line of `check
-/// --json`, of the summary of `conform`, of a line of `prove`, of what `verify`, `vehicle` and `station` write at their end, of a line of the log of `vehicle` and of what
+/// --json`, of the summary of `conform`, of a line of `prove`, of a line of the log that `integrate` reads, of what `verify`, `vehicle` and `station` write at their end, of a line of the log of `vehicle` and of what
 /// `explore` and `evaluate` write.
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
@@ -32,6 +33,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
         ("conform-summary", schema::written::<Summary>()),
         ("claim", schema::written::<Claim>()),
         ("evidence", schema::written::<Evidence>()),
+        ("loop-log", schema::written::<Line>()),
         ("exploration", schema::written::<Vec<ExplorationReport>>()),
     ]);
     #[cfg(feature = "link")]

@@ -96,6 +96,8 @@ pub struct Settings {
     pub seed: u64,
     /// Which of the cycles that the monitor decides are recorded.
     pub recorded: Share,
+    /// Whether the calls of the monitor are logged, where all its cycles are recorded.
+    pub logged: bool,
 }
 
 impl Settings {
@@ -122,6 +124,7 @@ impl Settings {
             errors: Errors::default(),
             seed,
             recorded: Share::default(),
+            logged: false,
         }
     }
 

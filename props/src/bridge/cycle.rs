@@ -174,9 +174,11 @@ same_fields! {
 
     fn ego_from_impl(twin::Ego) -> Ego { x, y, cos, sin, speed, length, width, center_offset }
 
-    fn point_from_impl(twin::TrajectoryPoint) -> TrajectoryPoint { t_ns, x, y, cos, sin }
+    /// A point in the model's type.
+    pub fn point_from_impl(twin::TrajectoryPoint) -> TrajectoryPoint { t_ns, x, y, cos, sin }
 
-    fn track_from_impl(twin::Track) -> Track { id, x, y, cos, sin, vx, vy, length, width }
+    /// A track in the model's type.
+    pub fn track_from_impl(twin::Track) -> Track { id, x, y, cos, sin, vx, vy, length, width }
 
     fn detection_from_impl(twin::Detection) -> Detection { x, y, cos, sin, length, width }
 

@@ -142,6 +142,11 @@ impl<'a> Bridged<'a> {
         (answer, dropped)
     }
 
+    /// The next advice that nobody was told.
+    pub fn advice(&mut self) -> Option<twin::Advice> {
+        self.monitor.advice()
+    }
+
     /// With the last elements that were accepted, of whatever session.
     fn cycle(&mut self, now: Time, measured: &Measured) -> (Decision, Actions) {
         let Measured { ego, trajectory, tracks, detections, lead, grid } = measured;

@@ -14,6 +14,12 @@ macro_rules! same_names {
             let Parameters { $($name),* } = *parameters;
             twin::Parameters { $($name),* }
         }
+
+        /// The same in the model's type.
+        pub fn parameters_from_impl(parameters: &twin::Parameters) -> Parameters {
+            let twin::Parameters { $($name),* } = *parameters;
+            Parameters { $($name),* }
+        }
     };
 }
 

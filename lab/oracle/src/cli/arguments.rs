@@ -145,6 +145,17 @@ pub(super) struct VectorsArguments {
 }
 
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 the log breaks no duty, 1 it breaks some, 2 it cannot be read.
+
+Each line of the log is {\"made\": ...}, {\"call\": ...} or {\"control\": ...}; `mufasa schemas` writes their schema
+(loop-log), `mufasa evaluate replay --calls FILE` a log of the simulator's loop.")]
+pub(super) struct IntegrateArguments {
+    /// The log (JSON Lines).
+    pub(super) log: PathBuf,
+}
+
+#[derive(Args)]
 pub(super) struct CompletionsArguments {
     /// The shell that completes what is typed.
     pub(super) shell: clap_complete::Shell,

@@ -6,6 +6,7 @@ use clap::{Args, Subcommand};
 use mufasa_sim::experiment::select::{Options, Shard};
 
 use super::falsify::FalsifyArguments;
+use super::margins::MarginsArguments;
 use super::parts::shard;
 use super::replay::{ReplayArguments, run_id};
 use super::scenes::ScenesArguments;
@@ -65,6 +66,8 @@ pub enum Asked {
     /// Search for avoidable collisions with one other that comes to where the CAV will be: all kinds of lies, trajectories
     /// that begin elsewhere, at another time, or end in its way.
     Scenes(ScenesArguments),
+    /// How wrong an assumption may be: the same scenes, with one error of growing size.
+    Margins(MarginsArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }

@@ -77,6 +77,9 @@ pub struct ReplayArguments {
     /// Write the run as an MCAP log, too, which Foxglove shows; `mufasa check FILE` reads its cycles.
     #[arg(long, value_name = "FILE")]
     pub mcap: Option<PathBuf>,
+    /// Write the calls of the CAV's monitor, too, as a log for `mufasa integrate`.
+    #[arg(long, value_name = "FILE")]
+    pub calls: Option<PathBuf>,
 }
 
 /// The runs of an experiment by its name and its size, which is made of its defaults; none, if there is no such one.
@@ -178,11 +181,16 @@ fn write(
         complain(&format!("writes into {usual}; --out names another file"));
         PathBuf::from(usual)
     });
-    for file in [Some(&file), arguments.mcap.as_ref()].into_iter().flatten() {
+    for file in
+        [Some(&file), arguments.mcap.as_ref(), arguments.calls.as_ref()].into_iter().flatten()
+    {
         files::prepare_file(file).map_err(cannot(file, "written"))?;
     }
-    let mut both = Both { replay: Replay::default(), log: None };
+    let mut both = Both { replay: Replay::default(), log: None, calls: String::new() };
     let mut job = job.clone();
+    if arguments.calls.is_some() {
+        (job.settings.recorded, job.settings.logged) = (Share::ALL, true);
+    }
     if arguments.mcap.is_some() {
         job.settings.recorded = Share::ALL;
         both.log = Some(Log::new(&name)?);
@@ -195,6 +203,10 @@ fn write(
         files::write_bytes(file, &log.finish()?).map_err(cannot(file, "written"))?;
         written.push(file.clone());
     }
+    if let Some(file) = &arguments.calls {
+        files::write(file, &both.calls).map_err(cannot(file, "written"))?;
+        written.push(file.clone());
+    }
     Ok((name, outcome, written))
 }
 
@@ -202,6 +214,7 @@ fn write(
 struct Both {
     replay: Replay,
     log: Option<Log>,
+    calls: String,
 }
 
 impl Watcher for Both {
@@ -214,6 +227,7 @@ impl Watcher for Both {
 
     fn ended(&mut self, truth: &Snapshot, cav: &Cav<'_>) {
         self.replay.ended(truth, cav);
+        self.calls = cav.guard().calls().map(ToString::to_string).unwrap_or_default();
     }
 }
 

@@ -76,7 +76,8 @@ pub fn run(arguments: &ScenesArguments, out: &mut impl Write) -> Ended {
 fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String> {
     let &ScenesArguments { seed, profile, tau, .. } = arguments;
     prepared(arguments.out.as_deref(), FOUND)?;
-    let options = Options { profile, tau_s: tau, seed, only: arguments.only.clone() };
+    let only = arguments.only.clone();
+    let options = Options { profile, tau_s: tau, seed, only, wrong: None };
     let scenes = arguments.scenes.unwrap_or(SCENES);
     let until =
         arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));

@@ -7,6 +7,7 @@ mod compose;
 mod demo;
 mod explore;
 mod findings;
+mod integrate;
 mod interrupted;
 mod kit;
 #[path = "../../../sim/tests/common/maps.rs"]

@@ -7,15 +7,19 @@ use mufasa::monitor::{
 };
 use mufasa::offloading::requester::{
     Action, Actions, Event, EventKind, GroupState, Requester, RequesterError, Running, Sessions,
-    StationRecord,
+    Source, StationRecord,
 };
 use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
 use mufasa_link::vehicle::tell::Given;
 use mufasa_props::call;
+use mufasa_records::calls::Follows;
+use mufasa_records::monitor_answer::VerifiedAnswer;
+use serde_json::Value;
 
 use super::assembled::Known;
 pub use super::assembled::Results;
+use super::calls::{self, Calls};
 pub use super::decided::Decided;
 use super::recorder::Recorder;
 use super::sensing::Sensed;
@@ -31,6 +35,11 @@ pub struct Guard<'a> {
     last: Last,
     recorder: Recorder<'a>,
     withheld: Option<Withheld>,
+    settings: &'a Settings,
+    /// What the loop around the monitor does, where it is logged.
+    calls: Option<Calls>,
+    /// The trajectory that came out last.
+    released: Option<VerifiedAnswer>,
 }
 
 #[derive(Debug)]
@@ -94,7 +103,15 @@ impl<'a> Guard<'a> {
             }
         };
         let recorder = Recorder::new(settings, route.cross_sections);
-        Ok(Self { kind, last: Last::default(), recorder, withheld: settings.withheld })
+        Ok(Self {
+            kind,
+            last: Last::default(),
+            recorder,
+            withheld: settings.withheld,
+            settings,
+            calls: settings.logged.then(Calls::default),
+            released: None,
+        })
     }
 
     /// The stretch of the route that is followed from now on.
@@ -146,10 +163,32 @@ impl<'a> Guard<'a> {
             Kind::Plain(requester) => requester.step(&Event { t_ns, kind }),
             Kind::Checked { monitor, .. } => {
                 let Some(actions) = call::event(monitor, now, kind) else { return Ok(Vec::new()) };
+                if let (Some(calls), Ok(actions), Some(kind)) =
+                    (&mut self.calls, &actions, calls::told(kind))
+                {
+                    calls.add((t_ns, kind), actions, Value::Null, None);
+                }
                 actions
             }
         };
         actions.map(|actions| actions.to_vec())
+    }
+
+    /// Control does this at a time, ns.
+    pub(super) fn control(&mut self, t_ns: i64, follows: Follows) {
+        if let Some(calls) = &mut self.calls {
+            calls.control(t_ns, follows);
+        }
+    }
+
+    /// The log of the loop, where it is made.
+    pub fn calls(&self) -> Option<&Calls> {
+        self.calls.as_ref()
+    }
+
+    /// The trajectory that came out last.
+    pub(super) fn released(&self) -> Option<VerifiedAnswer> {
+        self.released
     }
 
     /// Tracks arrive.
@@ -165,7 +204,12 @@ impl<'a> Guard<'a> {
             Kind::Plain(requester) => keep(requester, t_ns, Group::Mot, message, last),
             Kind::Checked { monitor, tracks, .. } => {
                 let copy = message.clone();
-                Ok(accept(monitor.tracks(time(t_ns), message)?, tracks, copy, last))
+                let kind = self.calls.as_ref().map(|_| calls::tracks(&message));
+                let actions = accept(monitor.tracks(time(t_ns), message)?, tracks, copy, last);
+                if let (Some(calls), Some(kind)) = (&mut self.calls, kind) {
+                    calls.add((t_ns, kind), &actions, Value::Null, None);
+                }
+                Ok(actions)
             }
         }
     }
@@ -183,7 +227,12 @@ impl<'a> Guard<'a> {
             Kind::Plain(requester) => keep(requester, t_ns, Group::Plan, message, last),
             Kind::Checked { monitor, points, .. } => {
                 let copy = message.clone();
-                Ok(accept(monitor.trajectory(time(t_ns), message)?, points, copy, last))
+                let kind = self.calls.as_ref().map(|_| calls::trajectory(&message));
+                let actions = accept(monitor.trajectory(time(t_ns), message)?, points, copy, last);
+                if let (Some(calls), Some(kind)) = (&mut self.calls, kind) {
+                    calls.add((t_ns, kind), &actions, Value::Null, None);
+                }
+                Ok(actions)
             }
         }
     }
@@ -198,6 +247,7 @@ impl<'a> Guard<'a> {
         let results = last.or(local, monitor.requester());
         let known = Known::of(monitor.configuration(), (t_ns, ego), sensed);
         let record = recorder.cycle(&known, results);
+        let logged = self.calls.as_mut().and_then(|it| Some((it, recorder.local(&known, local)?)));
         let is_list = results.tracks.is_none_or(|list| {
             withheld.is_none_or(|it| !it.is_no_list(known.configuration, list.items.len()))
         });
@@ -213,6 +263,19 @@ impl<'a> Guard<'a> {
         let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
         let (decision, actions) = monitor.cycle(&inputs);
         let actions = actions.to_vec();
+        let session = last.points.as_ref().map(|it| it.session);
+        let released = match &decision {
+            Decision::Safe { trajectory: Some(it), .. } => Some(match it.source() {
+                Source::Local => {
+                    VerifiedAnswer { stamp_ns: it.stamp_ns, station: 0, session: None }
+                }
+                Source::Remote { station } => {
+                    VerifiedAnswer { stamp_ns: it.stamp_ns, station, session }
+                }
+            }),
+            Decision::Safe { .. } | Decision::Unsafe { .. } => None,
+        };
+        self.released = released.or(self.released);
         let decided = match decision {
             Decision::Safe { tracks, trajectory, report, brake } => Decided {
                 is_safe: true,
@@ -228,6 +291,10 @@ impl<'a> Guard<'a> {
                 Decided { report: Some(report), brake, actions, record, ..Decided::default() }
             }
         };
+        if let Some((calls, cycle)) = logged {
+            let advice = Some(monitor.advice().map(|it| it.to_string()));
+            calls.cycle(self.settings, cycle, (&decided, released), advice);
+        }
         if matches!(decided.report, Some(Ok(_))) {
             recorder.see(sensed);
         }

@@ -2,6 +2,7 @@
 
 pub mod asking;
 mod assembled;
+pub mod calls;
 pub mod decided;
 pub mod guard;
 pub mod local;
@@ -16,6 +17,7 @@ use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterErro
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
 use mufasa_link::vehicle::tell::Measured;
+use mufasa_records::calls::Follows;
 
 use self::asking::{Asking, Known};
 use self::guard::{Decided, Guard, Results};
@@ -67,6 +69,8 @@ pub struct Cav<'a> {
     tracked: Option<(i64, Vec<Track>)>,
     /// What control follows.
     points: Vec<TrajectoryPoint>,
+    /// The same in words.
+    follows: Follows,
     /// By when it brakes along it where nothing newer has come, ns (F-47).
     brake_by_ns: Option<i64>,
     /// How many of its own plans were examined (`Settings::supervise_local`), and how many of them failed.
@@ -102,6 +106,7 @@ impl<'a> Cav<'a> {
             own: None,
             tracked: None,
             points: Vec::new(),
+            follows: Follows::OwnPlan,
             brake_by_ns: None,
             examined: [0; 2],
             asking: Asking::new(settings, cross_sections),
@@ -271,7 +276,10 @@ impl<'a> Cav<'a> {
         if brakes {
             // Without points control brakes along those that it had.
             self.points = Vec::new();
+            self.follows = Follows::Brakes;
         } else if let Some(points) = new {
+            let released = self.guard.released().filter(|_| !is_own);
+            self.follows = released.map_or(Follows::OwnPlan, Follows::Verified);
             self.points = points;
             self.brake_by_ns = brake_by_ns;
         }
@@ -288,6 +296,7 @@ impl<'a> Cav<'a> {
         let has_ended = self.brake_by_ns.is_some_and(|by_ns| by_ns <= now_ns);
         // Without points it brakes along those that it had.
         let drives_on = !has_ended || self.settings.drives_on;
+        self.guard.control(now_ns, if drives_on { self.follows } else { Follows::Brakes });
         self.controller.command(&ego, if drives_on { &self.points } else { &[] }, now_ns)
     }
 

@@ -37,6 +37,11 @@ impl<'s> Recorder<'s> {
         is_kept.then(|| Box::new(cycles.with(known, results, bridge::from_impl)))
     }
 
+    /// The cycle with the results of the CAV's own services alone.
+    pub(super) fn local(&self, known: &Known<'_>, results: Results<'_>) -> Option<Cycle> {
+        self.cycles.as_ref().map(|it| it.with(known, results, bridge::from_impl))
+    }
+
     /// The cycle was one with valid input: its detections are those of later cycles' history.
     pub(super) fn see(&mut self, sensed: &Sensed) {
         if let Some(cycles) = &mut self.cycles {

@@ -65,11 +65,26 @@ pub struct Driven {
 pub trait Monitor: FnMut(&Cycle<'_>) -> Option<Alarm> {}
 impl<M: FnMut(&Cycle<'_>) -> Option<Alarm>> Monitor for M {}
 
-/// Drives a scene.
+/// How the CAV brakes.
+#[derive(Clone, Copy, Debug)]
+pub struct Brake {
+    /// Later than `tau` after the last safe cycle, s.
+    pub late_s: f64,
+    /// m/s^2
+    pub deceleration: f64,
+}
+
+impl Brake {
+    /// As assumed.
+    pub const ASSUMED: Self = Self { late_s: 0.0, deceleration: A_B };
+}
+
+/// Drives a scene. What braking at once avoids is that of a CAV that brakes as assumed.
 pub fn drive(
     scene: &Scene,
     profile: Profile,
     parameters: Parameters,
+    brake: Brake,
     monitor: &mut impl Monitor,
 ) -> Driven {
     let after = if scene.kinds.drive == Drive::Stops { STOPPED_S } else { AFTER_S };
@@ -80,19 +95,26 @@ pub fn drive(
     let asked = Asked::new(scene, profile, parameters);
     let mut alarms = (0_i32..).take_while(|number| time(*number) < last);
     let rejected = alarms.find_map(|number| Some((time(number), asked.ask(number, monitor)?)));
-    let braking = |from: f64| {
+    let braking = |from: f64, Brake { late_s, deceleration }: Brake| {
         // tau counts from the last safe cycle.
-        let from = (from - PERIOD_S).max(0.0) + parameters.tau;
-        let stands = from + scene.pace.at(from).1 / A_B;
-        ride(scene, Some(from), stands + STANDS_S, |_| ())
+        let from = (from - PERIOD_S).max(0.0) + parameters.tau + late_s;
+        let stands = from + scene.pace.at(from).1 / deceleration;
+        ride(scene, Some((from, deceleration)), stands + STANDS_S, |_| ())
     };
-    let hit = rejected.map_or(hit_going_on, |(from, _)| braking(from));
-    Driven { rejected, hit, hit_going_on, nearest_m, hit_at_once: braking(0.0) }
+    let hit = rejected.map_or(hit_going_on, |(from, _)| braking(from, brake));
+    let hit_at_once = braking(0.0, Brake::ASSUMED);
+    Driven { rejected, hit, hit_going_on, nearest_m, hit_at_once }
 }
 
-/// The collision of a CAV that brakes from a time on, until another, s; each distance is told, m.
-fn ride(scene: &Scene, brakes: Option<f64>, end: f64, mut apart: impl FnMut(f64)) -> Option<Hit> {
-    let braked = brakes.map(|from| scene.pace.braking(from, A_B));
+/// The collision of a CAV that brakes from a time on, s, by so much, m/s^2, until another time, s; each distance is
+/// told, m.
+fn ride(
+    scene: &Scene,
+    brakes: Option<(f64, f64)>,
+    end: f64,
+    mut apart: impl FnMut(f64),
+) -> Option<Hit> {
+    let braked = brakes.map(|(from, by)| scene.pace.braking(from, by));
     let pace = braked.as_ref().unwrap_or(&scene.pace);
     let mut stands_from: Option<f64> = None;
     let mut least = f64::INFINITY;
@@ -113,7 +135,7 @@ fn ride(scene: &Scene, brakes: Option<f64>, end: f64, mut apart: impl FnMut(f64)
         apart(now);
         if now <= 0.0 {
             let stood_s = stands_from.map_or(0.0, |from| t - from);
-            let since = brakes.or(stands_from);
+            let since = brakes.map(|it| it.0).or(stands_from);
             let could = |from| stands_from.is_some() && could_stop(scene, from, t);
             let has_not_yielded = since.is_some_and(could);
             return Some(Hit { t_s: t, speed_mps, stood_s, has_not_yielded });

@@ -13,6 +13,7 @@ pub mod scene;
 #[cfg(test)]
 mod tests;
 mod way;
+pub mod wrong;
 
 use std::collections::BTreeMap;
 
@@ -27,10 +28,12 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use self::closed_loop::{Alarm, Driven, Hit, drive};
+use self::closed_loop::{Alarm, Brake, Driven, Hit, drive};
 use self::kinds::{Drive, Lie, Motion, Remote, Shift, Side};
 use self::scene::{Kinds, Scene};
+use self::wrong::{Axis, Wrong};
 use crate::cav::guard::Variant;
+use crate::vehicle::A_B;
 
 /// Its name.
 pub const NAME: &str = "scenes";
@@ -52,6 +55,9 @@ pub struct Options {
     pub seed: u64,
     /// Words that the kinds of a scene have to contain.
     pub only: Vec<String>,
+    /// What is wrong with the assumptions, if something is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrong: Option<Wrong>,
 }
 
 /// A scene and what came of it.
@@ -197,10 +203,16 @@ impl Options {
         let mut monitor = |cycle: &Cycle<'_>| {
             each(cycle);
             profile?;
-            judged(cycle, &mut Scratch::new(&mut rows, &mut columns))
+            let mut judge = |it: &Cycle<'_>| judged(it, &mut Scratch::new(&mut rows, &mut columns));
+            match self.wrong {
+                Some(wrong) => wrong.measured(cycle, judge),
+                None => judge(cycle),
+            }
         };
         let parameters = self.parameters();
-        drive(scene, profile.unwrap_or(Profile::PAPER), parameters, &mut monitor)
+        let [late_s, share] = [Axis::Latency, Axis::Friction].map(|it| Wrong::of(self.wrong, it));
+        let brake = Brake { late_s, deceleration: A_B * (1.0 - share) };
+        drive(scene, profile.unwrap_or(Profile::PAPER), parameters, brake, &mut monitor)
     }
 
     /// The cycles of a scene as records, up to the first rejected one or the collision.

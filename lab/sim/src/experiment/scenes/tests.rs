@@ -3,7 +3,7 @@ use super::*;
 const SEED: u64 = 7;
 
 fn options(profile: Variant) -> Options {
-    Options { profile, tau_s: crate::vehicle::TAU_S, seed: SEED, only: Vec::new() }
+    Options { profile, tau_s: crate::vehicle::TAU_S, seed: SEED, only: Vec::new(), wrong: None }
 }
 
 fn made(profile: Variant, count: u64) -> Scenes {
@@ -22,7 +22,8 @@ fn without_a_monitor_they_meet_where_they_are_aimed() {
     let is_aimed = |it: &Scene| (it.kinds.side, it.kinds.drive) == (Side::Crossing, Drive::Keeps);
     let (mut scenes, mut hits) = (0, 0);
     for scene in numbered(1500).filter(is_aimed) {
-        let driven = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| None);
+        let driven =
+            drive(&scene, Profile::PAPER, parameters, Brake::ASSUMED, &mut |_: &Cycle<'_>| None);
         assert_eq!(driven.hit, driven.hit_going_on);
         scenes += 1;
         hits += usize::from(driven.hit.is_some_and(|it| (it.t_s - scene.meeting).abs() < 2.0));
@@ -36,8 +37,12 @@ fn a_brake_from_the_start_avoids_what_is_avoidable() {
     let alarm = Alarm { stage: "all", rule: "" };
     let mut avoidable = 0;
     for scene in numbered(200) {
-        let on = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| None);
-        let braked = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| Some(alarm));
+        let on =
+            drive(&scene, Profile::PAPER, parameters, Brake::ASSUMED, &mut |_: &Cycle<'_>| None);
+        let braked =
+            drive(&scene, Profile::PAPER, parameters, Brake::ASSUMED, &mut |_: &Cycle<'_>| {
+                Some(alarm)
+            });
         assert_eq!(braked.rejected, Some((0.0, alarm)));
         assert_eq!((braked.hit, braked.failed()), (on.hit_at_once, None));
         avoidable += usize::from(on.is_avoidable() && braked.hit.is_none());
@@ -91,4 +96,21 @@ fn every_cycle_is_valid_and_only_what_is_asked_for_is_made() {
         |it: &Run| it.rejected_by.as_ref().is_some_and(|by| by == "invalid" || by == "input");
     assert!(!runs.iter().any(is_invalid));
     assert!(runs.iter().any(|it| it.rejected_s.is_some()));
+}
+
+/// What each axis hides is found by a driver that brakes at once, and no size of none changes anything.
+#[test]
+fn an_assumption_that_does_not_hold_costs_collisions_and_none_costs_nothing() {
+    let of = |wrong| {
+        let mut made = Scenes::nothing(Options { wrong, ..options(Variant::Hardened) });
+        made.add(400, &|| ());
+        made.rows.swap_remove(0)
+    };
+    let as_assumed = of(None);
+    for axis in Axis::ALL {
+        assert_eq!(of(Some(Wrong { axis, size: 0.0 })), as_assumed, "{axis:?}");
+        let far = of(Some(Wrong { axis, size: axis.sizes()[5] }));
+        let changes = far.collided > as_assumed.collided || far.alarms > as_assumed.alarms;
+        assert!(changes, "{axis:?}: {far:?}");
+    }
 }
