@@ -57,7 +57,6 @@ pub struct Call {
     pub answer: Value,
     /// What it got when it asked for advice; absent: it did not ask.
     #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
-    #[expect(clippy::option_option, reason = "not asked, or nothing answered")]
     pub advice: Option<Option<String>>,
 }
 
