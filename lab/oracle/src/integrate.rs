@@ -289,7 +289,7 @@ impl Loop<'_> {
         }
         let heard = answer["decision"]["verdict"].is_string();
         if matches!(kind, EventKind::Cycle { .. }) {
-            self.cycle(&replayed, heard, took_ns, advice);
+            self.cycle(&replayed, heard, took_ns, advice.is_some());
         }
         let mut replayed = json!(MonitorState::new(replayed));
         let taken = |it: &mut Value| it.as_object_mut().and_then(|it| it.remove("actions"));
@@ -303,13 +303,7 @@ impl Loop<'_> {
         Ok(())
     }
 
-    fn cycle(
-        &mut self,
-        replayed: &Answer,
-        is_heard: bool,
-        took_ns: u64,
-        advice: Option<Option<String>>,
-    ) {
+    fn cycle(&mut self, replayed: &Answer, is_heard: bool, took_ns: u64, has_asked: bool) {
         self.seen.cycles += 1;
         let is_ticked = std::mem::take(&mut self.is_ticked);
         self.check(Duty::Period, is_ticked, || "no tick since the last cycle".to_owned());
@@ -319,7 +313,7 @@ impl Loop<'_> {
             format!("{took_ns} ns, check_time is {most_ns}")
         });
         let says = self.monitor.advice();
-        self.check(Duty::Advice, advice.is_some(), || "nobody asked for advice".to_owned());
+        self.check(Duty::Advice, has_asked, || "nobody asked for advice".to_owned());
         if let Some(says) = says {
             self.check(duty_of_advice(says), false, || format!("the monitor says: {says}"));
         }

@@ -60,6 +60,7 @@ impl Share {
 
 /// What a run is made of, beside town and scenario.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "switches of a run")]
 pub struct Settings {
     /// What is checked of remote data.
     pub variant: Variant,

@@ -42,15 +42,20 @@ impl Calls {
         &mut self,
         (t_ns, kind): (i64, EventKind),
         actions: &[Action],
-        decision: Value,
-        advice: Option<Option<String>>,
+        decision: &Value,
     ) {
         let action = |it: &Action| ActionAnswer::new(bridge::action_from_impl(*it));
         let actions: Vec<_> = actions.iter().map(action).collect();
         let answer = json!({"actions": actions, "decision": decision});
         let event = monitor::Event::of_model(&Event { t_ns, kind });
         let sender = Sender::handed(&json!(event));
-        self.lines.push(Line::Call(Box::new(Call { event, sender, took_ns: 0, answer, advice })));
+        self.lines.push(Line::Call(Box::new(Call {
+            event,
+            sender,
+            took_ns: 0,
+            answer,
+            advice: None,
+        })));
     }
 
     /// A cycle, with what came out of it; before the first one, with what the monitor was made.
@@ -59,7 +64,7 @@ impl Calls {
         settings: &Settings,
         cycle: Cycle,
         (decided, released): (&Decided, Option<VerifiedAnswer>),
-        advice: Option<Option<String>>,
+        advice: Option<String>,
     ) {
         if !matches!(self.lines.first(), Some(Line::Made(_))) {
             self.lines.insert(0, Line::Made(Box::new(made(settings, &cycle))));
@@ -71,7 +76,10 @@ impl Calls {
         });
         let Cycle { now_ns, ego, trajectory, tracks, detections, lead, grid, .. } = cycle;
         let measured = Box::new(Measured { ego, trajectory, tracks, detections, lead, grid });
-        self.add((now_ns, EventKind::Cycle { measured }), &decided.actions, decision, advice);
+        self.add((now_ns, EventKind::Cycle { measured }), &decided.actions, &decision);
+        if let Some(Line::Call(call)) = self.lines.last_mut() {
+            call.advice = Some(advice);
+        }
     }
 
     /// What control does from now on.

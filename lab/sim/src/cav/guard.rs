@@ -166,7 +166,7 @@ impl<'a> Guard<'a> {
                 if let (Some(calls), Ok(actions), Some(kind)) =
                     (&mut self.calls, &actions, calls::told(kind))
                 {
-                    calls.add((t_ns, kind), actions, Value::Null, None);
+                    calls.add((t_ns, kind), actions, &Value::Null);
                 }
                 actions
             }
@@ -207,7 +207,7 @@ impl<'a> Guard<'a> {
                 let kind = self.calls.as_ref().map(|_| calls::tracks(&message));
                 let actions = accept(monitor.tracks(time(t_ns), message)?, tracks, copy, last);
                 if let (Some(calls), Some(kind)) = (&mut self.calls, kind) {
-                    calls.add((t_ns, kind), &actions, Value::Null, None);
+                    calls.add((t_ns, kind), &actions, &Value::Null);
                 }
                 Ok(actions)
             }
@@ -230,7 +230,7 @@ impl<'a> Guard<'a> {
                 let kind = self.calls.as_ref().map(|_| calls::trajectory(&message));
                 let actions = accept(monitor.trajectory(time(t_ns), message)?, points, copy, last);
                 if let (Some(calls), Some(kind)) = (&mut self.calls, kind) {
-                    calls.add((t_ns, kind), &actions, Value::Null, None);
+                    calls.add((t_ns, kind), &actions, &Value::Null);
                 }
                 Ok(actions)
             }
@@ -292,7 +292,7 @@ impl<'a> Guard<'a> {
             }
         };
         if let Some((calls, cycle)) = logged {
-            let advice = Some(monitor.advice().map(|it| it.to_string()));
+            let advice = monitor.advice().map(|it| it.to_string());
             calls.cycle(self.settings, cycle, (&decided, released), advice);
         }
         if matches!(decided.report, Some(Ok(_))) {
