@@ -46,7 +46,8 @@ static CLEAN: LazyLock<Vec<Value>> = LazyLock::new(|| {
 });
 
 fn text(lines: &[Value]) -> String {
-    lines.iter().map(|line| format!("{line}\n")).collect()
+    let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
+    lines.join("\n")
 }
 
 /// The first line from this index on of which that is true.
@@ -138,7 +139,7 @@ fn stations_that_are_swapped_are_noticed() {
         breaks(Duty::Sender, at, |it| it[at]["call"]["event"]["station"] = json!(77));
         breaks(Duty::Sender, at, |it| it[at]["call"]["event"]["session"] = json!(77));
         breaks(Duty::Sender, at, |it| {
-            drop(it[at]["call"].as_object_mut().map(|it| it.remove("sender")))
+            drop(it[at]["call"].as_object_mut().map(|it| it.remove("sender")));
         });
     }
 }
@@ -161,7 +162,7 @@ fn milliseconds_for_nanoseconds_and_another_clock_are_noticed() {
             .for_each(|it| change(&mut it["call"]["event"]["measured"]));
     };
     breaks(Duty::Clock, None, |it| {
-        all(it, &|it| it["detections"]["stamp_ns"] = json!(-60_000_000_000_i64))
+        all(it, &|it| it["detections"]["stamp_ns"] = json!(-60_000_000_000_i64));
     });
     breaks(Duty::Gap, None, |it| {
         all(it, &|it| it["lead"]["gap"] = json!(it["lead"]["gap"].as_f64().expect("a lead") + 4.0));
@@ -180,10 +181,10 @@ fn settings_actions_answers_advice_and_sessions_are_looked_at() {
     breaks(Duty::Actions, at, |it| it[at]["call"]["answer"]["actions"] = json!([]));
     let at = first(0, is("cycle"));
     breaks(Duty::Arithmetic, at, |it| {
-        it[at]["call"]["answer"]["decision"]["verdict"] = json!("unsafe")
+        it[at]["call"]["answer"]["decision"]["verdict"] = json!("unsafe");
     });
     breaks(Duty::Advice, at, |it| {
-        drop(it[at]["call"].as_object_mut().map(|it| it.remove("advice")))
+        drop(it[at]["call"].as_object_mut().map(|it| it.remove("advice")));
     });
     breaks(Duty::Sessions, CLEAN.len(), |it| it.extend(CLEAN.clone()));
 }
