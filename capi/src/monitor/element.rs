@@ -91,9 +91,9 @@ impl<T> Received<T> {
         Some(Stored { items: self.spare, len: written })
     }
 
-    /// Elements arrive, in the session that they name, which runs or does not: stored and given to the monitor.
-    /// A list too long for its place is told to the monitor as an empty one of no session: that is no arrival, as
-    /// the monitor itself treats tracks that are too many.
+    /// Elements arrive, in the session that they name, which runs or does not: stored where it runs, and given to the
+    /// monitor; so what anybody forges costs no copy. A list too long for its place is told to the monitor as an empty
+    /// one of no session: that is no arrival, as the monitor itself treats tracks that are too many.
     pub(super) fn arrive(
         &mut self,
         items: impl ExactSizeIterator<Item = T>,
@@ -101,14 +101,17 @@ impl<T> Received<T> {
         is_running: bool,
         tell: impl FnOnce(i64, Stored<T>) -> Result<(Arrival<Stored<T>>, Actions), MufasaStatus>,
     ) -> Result<MufasaActions, MufasaStatus> {
-        if let Some(stored) = self.store(items) {
+        let stored = if is_running { self.store(items) } else { Some(self.nothing()) };
+        if let Some(stored) = stored {
             return Ok(self.take(tell(session, stored)?));
         }
         // MON-20
-        let nothing = Stored { items: self.spare.cast_const(), len: 0 };
-        let actions = self.take(tell(NO_SESSION, nothing)?);
-        let dropped = if is_running { MufasaDropReason::TooLong } else { actions.dropped };
-        Ok(MufasaActions { dropped, ..actions })
+        let actions = self.take(tell(NO_SESSION, self.nothing())?);
+        Ok(MufasaActions { dropped: MufasaDropReason::TooLong, ..actions })
+    }
+
+    fn nothing(&self) -> Stored<T> {
+        Stored { items: self.spare.cast_const(), len: 0 }
     }
 
     /// What has to be done about it. An element that was accepted is the last one from now on; the place of

@@ -27,6 +27,7 @@ use mufasa_records::names;
 use thiserror::Error;
 
 use self::log::{Follows, What};
+use self::memory::STATIONS_MAX;
 use self::summary::Tally;
 use self::tell::Measured;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
@@ -43,10 +44,25 @@ const PAUSED_AFTER_NS: i64 = 20_000_000;
 /// A station of which nothing was heard for so long is lost, ns: its offers come twice a second.
 const LOST_AFTER_NS: i64 = 3_000_000_000;
 
-/// Messages that are taken in one step at most, and the bytes behind which none is taken, so that a flood keeps no
-/// cycle from being decided: 64 of the longest would take 8 * 10^7 instructions to decode (docs/speed.md#messages).
-const AT_ONCE: usize = 64;
-const BYTES_AT_ONCE: usize = 65_536;
+/// Messages that are taken from one cycle to the next at most, so that a flood keeps no cycle from being decided in
+/// time: with one that was ahead, the stations that are lost and the tick the 64 of IMPL-11.
+const MESSAGES: usize = 64 - 2 - STATIONS_MAX;
+/// Bytes behind which none is taken until the next cycle: 64 of the longest messages would take 8 * 10^7 instructions
+/// to decode (docs/speed.md#messages).
+const BYTES: usize = 65_536;
+
+/// What was taken since the last cycle.
+#[derive(Debug, Default)]
+struct Taken {
+    messages: usize,
+    bytes: usize,
+}
+
+impl Taken {
+    const fn is_enough(&self) -> bool {
+        self.messages >= MESSAGES || self.bytes >= BYTES
+    }
+}
 
 /// Why a vehicle cannot drive.
 #[derive(Debug, Error)]
@@ -81,6 +97,7 @@ pub struct Vehicle<'a, T> {
     /// A message that was made after the time of the step in which it came: it came while the step ran, and
     /// is taken in the next one. What is still ahead then is taken for what it is.
     ahead: Option<Message>,
+    taken: Taken,
     /// What control follows, and which groups are remote; none before the first cycle.
     control: Option<(Configuration, Follows)>,
     /// Whether there is a connection, and how many there were; none before the first cycle.
@@ -120,6 +137,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
             trajectory: None,
             heard: BTreeMap::new(),
             ahead: None,
+            taken: Taken::default(),
             control: None,
             link: None,
         })
@@ -139,13 +157,10 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         if let Some(message) = self.ahead.take() {
             self.take(now_ns, message);
         }
-        let mut taken = 0;
-        for _ in 0..AT_ONCE {
-            if taken >= BYTES_AT_ONCE {
-                break;
-            }
+        while !self.taken.is_enough() {
             let Some(bytes) = self.transport.receive(now_ns) else { break };
-            taken += bytes.len();
+            self.taken.messages += 1;
+            self.taken.bytes += bytes.len();
             match message::decode(&bytes, &self.frame) {
                 Err(error) => self.tally.traffic().malformed(&error),
                 Ok(message) if message.generated_ns > now_ns => {
@@ -178,6 +193,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         self.look_at_link(now_ns);
         self.tick(now_ns);
         self.decide(now_ns, cycle, later_ns)?;
+        self.taken = Taken::default();
         self.next += 1;
         self.is_sensed = false;
         if self.next < played.count() {
@@ -195,9 +211,13 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         self.tally.traffic().health(self.transport.health());
     }
 
-    /// Waits until something arrives, at most so long.
+    /// Waits until something arrives, at most so long; all of it where nothing is taken any more.
     pub fn wait(&mut self, at_most: Duration) {
-        self.transport.wait(at_most);
+        if self.taken.is_enough() {
+            std::thread::sleep(at_most);
+        } else {
+            self.transport.wait(at_most);
+        }
     }
 
     /// Before when no station is asked, ns, if that ever was so.

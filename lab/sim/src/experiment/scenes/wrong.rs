@@ -121,7 +121,7 @@ impl Wrong {
     }
 }
 
-/// A picture of each axis: the size, and how many scenes collide avoidably.
+/// A picture of each axis: the size, and how many scenes collide because of the error.
 pub fn picture(curves: &[(Axis, Vec<(f64, u64)>)]) -> String {
     let mut text = String::new();
     let drawn = draw(&mut text, curves);
