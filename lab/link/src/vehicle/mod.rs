@@ -30,7 +30,7 @@ use self::log::{Follows, What};
 use self::memory::STATIONS_MAX;
 use self::summary::Tally;
 use self::tell::Measured;
-use crate::message::{self, EncodeError, Frame, Message, Payload};
+use crate::message::{self, DecodeError, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
 use crate::transport::{Address, Transport};
 
@@ -44,12 +44,14 @@ const PAUSED_AFTER_NS: i64 = 20_000_000;
 /// A station of which nothing was heard for so long is lost, ns: its offers come twice a second.
 const LOST_AFTER_NS: i64 = 3_000_000_000;
 
-/// Messages that are taken from one cycle to the next at most, so that a flood keeps no cycle from being decided in
-/// time: with one that was ahead, the stations that are lost and the tick the 64 of IMPL-11.
+/// What is told the monitor from one cycle to the next at most, so that a flood keeps no cycle from being decided in time:
+/// with a message that was ahead, the stations that are lost and the tick the 64 events of IMPL-11.
 const MESSAGES: usize = 64 - 2 - STATIONS_MAX;
-/// Bytes behind which none is taken until the next cycle: 64 of the longest messages would take 8 * 10^7 instructions
-/// to decode (docs/speed.md#messages).
+/// The bytes behind which nothing is read until the next cycle: 64 of the longest messages would take 8 * 10^7
+/// instructions to decode (docs/speed.md#messages). Each message counts as `HEAD` more, and one that is too long
+/// as that alone: it is not decoded.
 const BYTES: usize = 65_536;
+const HEAD: usize = 128;
 
 /// What was taken since the last cycle.
 #[derive(Debug, Default)]
@@ -159,9 +161,11 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         }
         while !self.taken.is_enough() {
             let Some(bytes) = self.transport.receive(now_ns) else { break };
-            self.taken.messages += 1;
-            self.taken.bytes += bytes.len();
-            match message::decode(&bytes, &self.frame) {
+            let read = message::decode(&bytes, &self.frame);
+            let is_decoded = !matches!(read, Err(DecodeError::TooLong { .. }));
+            self.taken.messages += usize::from(read.is_ok());
+            self.taken.bytes += HEAD + if is_decoded { bytes.len() } else { 0 };
+            match read {
                 Err(error) => self.tally.traffic().malformed(&error),
                 Ok(message) if message.generated_ns > now_ns => {
                     self.ahead = Some(message);

@@ -252,22 +252,26 @@ fn at(x: f64) -> Ego {
     Ego { x, y: x, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4 }
 }
 
-/// From one cycle to the next 46 messages are taken, and of the longest ones fewer: none behind 64 KiB. The first two
-/// cycles of the drive are decided after 50 ms and 150 ms at the latest.
+/// From one cycle to the next 46 messages are told the monitor, and 64 KiB are decoded. The first two cycles of the
+/// drive are decided after 50 ms and 150 ms at the latest.
 #[test]
 fn a_flood_is_taken_little_by_little() {
-    for (bytes, in_a_cycle) in [(16_384, 4), (16_385, 4), (16_383, 5), (100, 46)] {
-        let malformed = |until| {
-            let flood = move |ms: i64, by: &mut Somebody| {
-                if ms == 0 {
-                    (0..200).for_each(|_| by.shout(VEHICLE, &vec![0xff; bytes]));
-                }
-            };
-            let world = World { also: Box::new(flood), until, station: vec![], ..World::default() };
-            world.drive().vehicle.traffic.malformed.values().sum::<u64>()
+    let flood = |until, bytes: Option<usize>| {
+        let flood = move |ms: i64, by: &mut Somebody| {
+            (0..200).filter(|_| ms == 0).for_each(|_| match bytes {
+                Some(bytes) => by.shout(VEHICLE, &vec![0xff; bytes]),
+                None => by.say(VEHICLE, [1, 1], Payload::Withdraw),
+            });
         };
-        let [early, later] = [malformed(3), malformed(160)];
-        assert_eq!(early, in_a_cycle, "{bytes}");
-        assert!(later >= 2 * in_a_cycle && later <= 4 * in_a_cycle, "{bytes}: {later}");
+        let world = World { also: Box::new(flood), until, station: vec![], ..World::default() };
+        let traffic = world.drive().vehicle.traffic;
+        [traffic.malformed, traffic.received].iter().flat_map(BTreeMap::values).sum::<u64>()
+    };
+    for (bytes, in_a_cycle) in [(Some(16_384), 4), (Some(8_192), 8), (None, 46)] {
+        assert_eq!(flood(3, bytes), in_a_cycle, "{bytes:?}");
+        let later = flood(160, bytes);
+        assert!((2 * in_a_cycle..=4 * in_a_cycle).contains(&later), "{bytes:?}: {later}");
     }
+    // What costs nothing does not keep others away.
+    assert_eq!([flood(3, Some(16_385)), flood(3, Some(40))], [200; 2]);
 }
