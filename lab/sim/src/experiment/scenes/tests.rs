@@ -98,9 +98,9 @@ fn every_cycle_is_valid_and_only_what_is_asked_for_is_made() {
     assert!(runs.iter().any(|it| it.rejected_s.is_some()));
 }
 
-/// What each axis hides is found by a driver that brakes at once, and no size of none changes anything.
+/// The largest error of an axis costs collisions, or alarms where lists contradict each other; no error changes nothing.
 #[test]
-fn an_assumption_that_does_not_hold_costs_collisions_and_none_costs_nothing() {
+fn an_assumption_that_does_not_hold_costs_collisions_or_alarms_and_none_costs_nothing() {
     let of = |wrong| {
         let mut made = Scenes::nothing(Options { wrong, ..options(Variant::Hardened) });
         made.add(400, &|| ());
@@ -110,7 +110,10 @@ fn an_assumption_that_does_not_hold_costs_collisions_and_none_costs_nothing() {
     for axis in Axis::ALL {
         assert_eq!(of(Some(Wrong { axis, size: 0.0 })), as_assumed, "{axis:?}");
         let far = of(Some(Wrong { axis, size: axis.sizes()[5] }));
-        let changes = far.collided > as_assumed.collided || far.alarms > as_assumed.alarms;
-        assert!(changes, "{axis:?}: {far:?}");
+        // Of these two most scenes are rejected, because lists contradict each other.
+        let is_seen = matches!(axis, Axis::Pose | Axis::Clock);
+        let [before, after] =
+            [&as_assumed, &far].map(|it| if is_seen { it.alarms } else { it.collided });
+        assert!(after > before, "{axis:?}: {far:?}");
     }
 }
