@@ -24,7 +24,7 @@
 #define MUFASA_VERSION_MAJOR 0
 
 // Second number.
-#define MUFASA_VERSION_MINOR 1
+#define MUFASA_VERSION_MINOR 2
 
 // Third number.
 #define MUFASA_VERSION_PATCH 0

@@ -3,7 +3,7 @@
 /// First number of the version of this interface; `mufasa_version` says that of the library.
 pub const MUFASA_VERSION_MAJOR: u32 = 0;
 /// Second number.
-pub const MUFASA_VERSION_MINOR: u32 = 1;
+pub const MUFASA_VERSION_MINOR: u32 = 2;
 /// Third number.
 pub const MUFASA_VERSION_PATCH: u32 = 0;
 

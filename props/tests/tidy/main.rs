@@ -117,6 +117,12 @@ fn no_package_outside_of_lab_needs_one_in_it() {
     judge(&packages::need_the_laboratory(&Tree::here()), &[]);
 }
 
+/// A version means something where its changes are named.
+#[test]
+fn the_changelog_begins_with_the_version() {
+    judge(&packages::changes_of_another_version(&Tree::here()), &[]);
+}
+
 /// What is told of misuse is tested.
 #[test]
 fn each_row_of_the_tables_of_misuse_has_its_test() {

@@ -63,6 +63,18 @@ pub fn need_the_laboratory(tree: &Tree) -> Vec<(String, String)> {
     needs.collect()
 }
 
+/// That the changelog does not begin with the version of the workspace.
+pub fn changes_of_another_version(tree: &Tree) -> Vec<(String, String)> {
+    let text = |path: &str| tree.0.get(path).map(String::as_str).unwrap_or_default();
+    let manifest: Table = text("Cargo.toml").parse().expect("a manifest");
+    let version = manifest["workspace"]["package"]["version"].as_str();
+    let first = text("CHANGELOG.md").lines().find_map(|line| line.strip_prefix("## "));
+    let is_wrong = version.is_none() || first != version;
+    let wrong =
+        ("CHANGELOG.md".to_owned(), format!("begins with {first:?}, and this is {version:?}"));
+    is_wrong.then_some(wrong).into_iter().collect()
+}
+
 fn packages(tree: &Tree) -> BTreeMap<String, Package> {
     let manifests: Vec<(&str, Table)> = tree
         .ending("Cargo.toml")
@@ -121,4 +133,15 @@ fn a_package_that_needs_the_laboratory_is_seen() {
     };
     assert_eq!(of("lab/b/Cargo.toml"), [("a".to_owned(), "needs b of the laboratory".to_owned())]);
     assert_eq!(of("b/Cargo.toml"), []);
+}
+
+#[test]
+fn changes_of_another_version_are_seen() {
+    let of = |version: &str| {
+        let manifest = format!("[workspace.package]\nversion = \"{version}\"\n");
+        let files = [("Cargo.toml", manifest), ("CHANGELOG.md", "# A\n\n## 0.2.0\n".to_owned())];
+        Tree(files.map(|(path, text)| (path.to_owned(), text)).into())
+    };
+    assert_eq!(changes_of_another_version(&of("0.3.0")).len(), 1);
+    assert_eq!(changes_of_another_version(&of("0.2.0")), []);
 }
