@@ -120,8 +120,11 @@ fn replay(
         }
     };
     set_route(&mut monitor, &sequence.route)?;
+    let is_restarted = seen.cycles > 0;
     let mut examined = Loop {
         monitor: Bridged::new(monitor),
+        waits_ns: if is_restarted { settings.requester.t_wait_ns } else { 0 },
+        first_ns: None,
         period_ns: sequence.period_ns,
         check_time_ns,
         now_ns: None,
@@ -186,6 +189,9 @@ struct Release {
 
 struct Loop<'a> {
     monitor: Bridged<'a>,
+    /// For how long from its first call on the monitor may ask nobody, and that call.
+    waits_ns: i64,
+    first_ns: Option<i64>,
     period_ns: i64,
     check_time_ns: u64,
     now_ns: Option<i64>,
@@ -258,6 +264,7 @@ impl Loop<'_> {
         let event = event.into_model();
         let Event { t_ns, kind } = &event;
         self.passes(*t_ns);
+        self.first_ns.get_or_insert(*t_ns);
         let handed = Sender::handed(&words);
         self.check(Duty::Sender, handed == sender, || {
             format!("the call names {}, the message {}", json!(handed), json!(sender))
@@ -285,6 +292,10 @@ impl Loop<'_> {
             self.seen.see("release", matches!(action, Action::Release { .. }));
             if let Action::Request { session, .. } = action {
                 self.seen.session = self.seen.session.max(*session);
+                let since_ns = t_ns.saturating_sub(self.first_ns.unwrap_or(*t_ns));
+                self.found.check(self.line, Duty::Wait, since_ns >= self.waits_ns, || {
+                    format!("a station is asked {since_ns} ns after a restart")
+                });
             }
         }
         let heard = answer["decision"]["verdict"].is_string();

@@ -42,6 +42,8 @@ duties! {
         "Compare the settings with those of docs/configuration.md";
     Sessions: "Number sessions on over a restart (A-17).",
         "Store the last session, and give it as sessions_before";
+    Wait: "Offer nothing for `t_wait` after a restart (A-17).",
+        "Keep offers back until t_wait after the first call of the new monitor";
     Clock: "Give all times on one clock.",
         "Convert each time to ns of the vehicle's clock where it comes in";
     Gap: "Give the gap from bumper to bumper.",

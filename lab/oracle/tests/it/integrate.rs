@@ -190,6 +190,24 @@ fn settings_actions_answers_advice_and_sessions_are_looked_at() {
 }
 
 #[test]
+fn a_restart_that_forgets_the_wait_is_noticed() {
+    let asks = |line: &Value| line["call"]["answer"]["actions"][0]["send"] == "request";
+    let at = first(0, asks);
+    breaks(Duty::Wait, CLEAN.len() + at, |it| it.extend(CLEAN.clone()));
+    // Who offers nothing until then keeps it.
+    let start_ns = CLEAN[1]["call"]["event"]["t_ns"].as_i64().expect("a time");
+    let is_early = |line: &Value| {
+        let t_ns = line["call"]["event"]["t_ns"].as_i64();
+        is("offer")(line) && t_ns.is_some_and(|it| it < start_ns + 1_000_000_000)
+    };
+    let later = CLEAN.iter().filter(|it| !is_early(it)).cloned();
+    let lines: Vec<Value> = CLEAN.iter().cloned().chain(later).collect();
+    assert!(lines.len() < 2 * CLEAN.len(), "an early offer is left out");
+    let (found, _) = examine(&text(&lines)).expect("it can be read");
+    assert!(found.broken().iter().all(|it| it.0 != Duty::Wait), "{}", found.text("log"));
+}
+
+#[test]
 fn the_duties_stand_in_the_manual_and_the_program_ends_with_their_number() {
     let manual = include_str!("../../../../docs/safety-manual.md");
     for duty in Duty::ALL {
