@@ -57,11 +57,14 @@ impl Tally {
     }
 
     /// Half of the cases near a threshold, and each of these verdicts in at least one case of a
-    /// hundred.
+    /// hundred. Fewer cases than the default are not asked: their shares are chance.
     ///
     /// # Panics
     /// When it is not so.
     pub fn assert_aimed(&self, verdicts: &[&str]) {
+        if !are_enough() {
+            return;
+        }
         assert!(2 * self.near >= self.sampled, "only {}% near a threshold", self.near_percent());
         for verdict in verdicts {
             let count = self.count(verdict);
@@ -80,6 +83,11 @@ impl fmt::Display for Tally {
 /// Cases per property: `MUFASA_CASES`, or 20,000.
 pub fn cases() -> u32 {
     std::env::var("MUFASA_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(CASES)
+}
+
+/// Whether there are so many that what they cover is asked for.
+pub fn are_enough() -> bool {
+    cases() >= CASES
 }
 
 /// A runner with as many cases as `cases` says; the same draws in every run unless `MUFASA_SEED`
