@@ -140,7 +140,7 @@ impl<'a> Arena<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arena, MaybeUninit, list, optional, put, required};
+    use super::{Arena, MaybeUninit, list, optional, put, required, required_mut};
     use crate::status::MufasaStatus;
 
     #[test]
@@ -177,6 +177,8 @@ mod tests {
         }
         // SAFETY: as above.
         assert_eq!(unsafe { required(odd) }.err(), Some(MufasaStatus::Misaligned));
+        // SAFETY: as above.
+        assert_eq!(unsafe { required_mut(odd.cast_mut()) }.err(), Some(MufasaStatus::Misaligned));
         // SAFETY: as above.
         assert_eq!(unsafe { optional(odd) }.err(), Some(MufasaStatus::Misaligned));
         // SAFETY: as above.

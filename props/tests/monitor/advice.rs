@@ -138,6 +138,8 @@ fn a_loop_without_ticks_is_told_once() {
 fn a_speed_of_the_lead_that_its_gap_contradicts_is_told_once() {
     assert_eq!(drive(|it| it.lead_speed *= 3.6), [Advice::LeadSpeed]);
     assert_eq!(drive(|it| it.lead_speed = 0.0), [Advice::LeadSpeed]);
+    // Nothing is told of a lead that touches the CAV.
+    assert_eq!(drive(|it| (it.gap, it.lead_speed) = (0.0, 20.0)), []);
 }
 
 /// IMPL-16, IMPL-17: between centres, from the reference point; detections of half the size, and a `center_offset` of 0 with the

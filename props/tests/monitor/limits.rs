@@ -134,7 +134,7 @@ fn times_below_a_millisecond_are_refused_and_zero_is_not() {
     assert_eq!(refused(Settings { period, ..settings() }).0, short);
 }
 
-/// MON-21: memory that can never be enough is refused at once.
+/// MON-21, IMPL-08: memory that can never be enough is refused at once.
 #[test]
 fn too_little_memory_is_refused_by_name() {
     let without = |change: fn(&mut Buffers), profile| {
@@ -334,4 +334,28 @@ fn results_that_no_cycle_can_use_end_their_session() {
         activated += usize::from(station.released > 0);
     }
     assert_eq!(activated, 3);
+}
+
+/// IMPL-09: a monitor that refuses an offer is the one that never got it.
+#[test]
+fn an_offer_that_is_refused_changes_nothing() {
+    let road = road();
+    let asked = [false, true].map(|is_told| {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.on(&road);
+        let _none = monitor.area(at(0), Groups::ALL);
+        for station in 1..=8 {
+            assert!(monitor.offer(at(0), station, Groups::ALL).expect("there is room").is_empty());
+        }
+        if is_told {
+            let full = RequesterError::TableFull { station: 9, capacity: 8 };
+            assert_eq!(monitor.offer(at(0), 9, Groups::ALL), Err(full));
+            let wrong = RequesterError::Station { station: 0 };
+            assert_eq!(monitor.offer(at(0), 0, Groups::ALL), Err(wrong));
+            assert_eq!(monitor.lost(at(0), 0), Err(wrong));
+        }
+        monitor.tick(at(0)).to_vec()
+    });
+    assert_eq!(asked[0].len(), 2, "both groups are asked for");
+    assert_eq!(asked[0], asked[1]);
 }

@@ -1,4 +1,6 @@
-//! The monitor answers as the exact model of it, on sequences that aim at every time that it compares.
+//! The monitor answers as the exact model of it, on sequences that aim at every time that it compares: SEEN-01,
+//! MON-01, MON-02, MON-04, MON-05, MON-06, MON-07, MON-08, MON-09, MON-10, MON-11, MON-12, MON-13, MON-14,
+//! MON-15, MON-16, MON-17, MON-19, MON-20, MON-30 to MON-46, MON-47 to MON-59, PROTO-07, FALL-13.
 
 use std::cell::RefCell;
 
@@ -24,8 +26,6 @@ fn sequences() -> u32 {
     (cases() / 200).max(1)
 }
 
-/// MON-01, MON-02, MON-04, MON-05, MON-06, MON-07, MON-08, MON-09, MON-10, MON-11, MON-12, MON-13, MON-14,
-/// MON-15, MON-16, MON-17, MON-19, MON-20, MON-30 to MON-46, MON-47 to MON-59, PROTO-07, FALL-13.
 fn as_the_model(profile: Profile) {
     let reached = RefCell::new(Reached::default());
     let mut runner = runner();

@@ -39,6 +39,7 @@ impl Seen {
     }
 }
 
+/// REQ-04, REQ-25.
 #[test]
 fn every_event_has_the_same_actions_and_leads_to_the_same_state() {
     let seen = RefCell::new(Seen::default());

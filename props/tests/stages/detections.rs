@@ -1,5 +1,5 @@
 //! Stage iv of the implementation against the exact model
-//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-04, H-14).
+//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-04, H-14): DOM-03.
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};

@@ -1,4 +1,5 @@
-//! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`).
+//! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`): H-14.8, H-14.41,
+//! SEEN-05, SEEN-14.
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
@@ -105,4 +106,73 @@ fn an_origin_that_many_may_come_from() {
     let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
     assert_eq!(strict.as_ref().expect("valid").failed_stage, None);
     assert_eq!(conforming(&cycle, &exact, &strict), Ok(()));
+}
+
+/// The cycle with the CAV's heading turned by the angle of this sine.
+fn turned(cycle: &Cycle, sin: f64) -> Cycle {
+    let mut cycle = cycle.clone();
+    let ego = &mut cycle.ego;
+    let cos = (1.0 - sin * sin).sqrt();
+    (ego.cos, ego.sin) = (ego.cos * cos - ego.sin * sin, ego.sin * cos + ego.cos * sin);
+    cycle
+}
+
+/// Whether the exact model finds it safe, with which the implementation has to agree.
+fn is_safe(cycle: &Cycle) -> bool {
+    let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(cycle, it));
+    assert_eq!(conforming(cycle, &exact, &strict), Ok(()));
+    exact.is_ok_and(|it| it.failed_stage.is_none())
+}
+
+/// H-14.41: who keeps beside does so up to a heading of the CAV, which is found to 10^-12. The implementation
+/// asks few places all at once, and each of many by itself.
+#[test]
+fn a_path_that_bends_as_much_as_it_may() {
+    let (mut rng, mut few, mut many) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
+    let beside = fail_safe::AIMS.iter().position(|(name, _)| *name == "beside").expect("an aim");
+    for case in 0..120 {
+        let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
+        let draw = &mut Draw::new(&tape);
+        let sign = if case % 4 < 2 { 1.0 } else { -1.0 };
+        if case % 2 == 0 {
+            let cycle = fail_safe::beside_many_points(draw, Profile::HARDENED);
+            let differs = is_safe(&cycle) && !is_safe(&turned(&cycle, 0.09 * sign));
+            many += u32::from(differs);
+            continue;
+        }
+        let cycle = fail_safe::aimed(draw, Profile::HARDENED, beside);
+        let (mut least, mut most) = (0.0_f64, 0.12);
+        if !is_safe(&cycle) || is_safe(&turned(&cycle, most * sign)) {
+            continue;
+        }
+        while most - least > 1e-12 {
+            let middle = f64::midpoint(least, most);
+            let side = if is_safe(&turned(&cycle, middle * sign)) { &mut least } else { &mut most };
+            *side = middle;
+        }
+        few += u32::from((0.05..0.12).contains(&most));
+    }
+    assert!(few > 4 && many > 2, "{few} {many}");
+}
+
+/// DOM-02: the points of a route may be hardly apart, so that a segment has no direction in doubles.
+#[test]
+fn beside_a_route_whose_points_are_hardly_apart() {
+    let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
+    for _ in 0..400 {
+        let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
+        let draw = &mut Draw::new(&tape);
+        let mut cycle = fail_safe::cycle(draw, Profile::HARDENED);
+        let Some(twice) = cycle.route.cross_sections.get(draw.below(3)).cloned() else { continue };
+        let mut near = twice.clone();
+        near.x = if draw.one_in(2) { near.x.next_up() } else { near.x + 1e-12 };
+        let at = cycle.route.cross_sections.iter().position(|it| *it == twice).expect("it is there");
+        cycle.route.cross_sections.insert(at + 1, near);
+        if is_safe(&cycle) {
+            safe += 1;
+        } else {
+            unsafe_ += 1;
+        }
+    }
+    assert!(safe > 50 && unsafe_ > 50, "{safe} {unsafe_}");
 }

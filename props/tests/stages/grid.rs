@@ -1,5 +1,6 @@
 //! Stage v of the implementation against the exact model
-//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-04, H-06).
+//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-04, H-06): DOM-04, I-07,
+//! H-14.27.
 
 use std::collections::BTreeMap;
 

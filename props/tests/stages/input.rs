@@ -1,6 +1,6 @@
 //! Invalid input: the implementation names the same field and index as the model, and neither
 //! panics (`spec/3-stages.md#invalid-input`,
-//! IMPL-05).
+//! IMPL-05): INPUT-04, INPUT-07, DOM-01.
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::agree;

@@ -1,11 +1,10 @@
 //! The first witness in the order of the rules: the implementation's is the model's
-//! (`spec/3-stages.md#schedule`).
+//! (`spec/3-stages.md#schedule`): SCHED-14, SCHED-19.
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{hold, near_threshold, same_witness};
 use mufasa_props::strategy::whole;
 
-/// SCHED-19.
 #[test]
 fn paper() {
     hold("witness", Profile::PAPER, whole::cycle, near_threshold, same_witness)
