@@ -166,7 +166,8 @@ fn beside_a_route_whose_points_are_hardly_apart() {
         let Some(twice) = cycle.route.cross_sections.get(draw.below(3)).cloned() else { continue };
         let mut near = twice.clone();
         near.x = if draw.one_in(2) { near.x.next_up() } else { near.x + 1e-12 };
-        let at = cycle.route.cross_sections.iter().position(|it| *it == twice).expect("it is there");
+        let at =
+            cycle.route.cross_sections.iter().position(|it| *it == twice).expect("it is there");
         cycle.route.cross_sections.insert(at + 1, near);
         if is_safe(&cycle) {
             safe += 1;
