@@ -154,26 +154,3 @@ fn a_path_that_bends_as_much_as_it_may() {
     }
     assert!(few > 4 && many > 2, "{few} {many}");
 }
-
-/// DOM-02: the points of a route may be hardly apart, so that a segment has no direction in doubles.
-#[test]
-fn beside_a_route_whose_points_are_hardly_apart() {
-    let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
-    for _ in 0..400 {
-        let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
-        let draw = &mut Draw::new(&tape);
-        let mut cycle = fail_safe::cycle(draw, Profile::HARDENED);
-        let Some(twice) = cycle.route.cross_sections.get(draw.below(3)).cloned() else { continue };
-        let mut near = twice.clone();
-        near.x = if draw.one_in(2) { near.x.next_up() } else { near.x + 1e-12 };
-        let at =
-            cycle.route.cross_sections.iter().position(|it| *it == twice).expect("it is there");
-        cycle.route.cross_sections.insert(at + 1, near);
-        if is_safe(&cycle) {
-            safe += 1;
-        } else {
-            unsafe_ += 1;
-        }
-    }
-    assert!(safe > 50 && unsafe_ > 50, "{safe} {unsafe_}");
-}
