@@ -40,6 +40,13 @@ pub struct Made {
     /// `meant`.
     #[serde(default)]
     pub meant: u32,
+    /// Places of its table of stations.
+    #[serde(default = "stations")]
+    pub stations: usize,
+}
+
+const fn stations() -> usize {
+    256
 }
 
 /// A call of a monitor.

@@ -23,8 +23,6 @@ use crate::ended::{Ended, FAILED, cannot};
 
 pub mod duty;
 
-/// Stations of a log, at most.
-const STATIONS: usize = 256;
 /// Times this near to each other are of one clock and unit, ns.
 const NEAR_NS: i64 = 2_000_000_000;
 
@@ -98,7 +96,7 @@ fn replay(
     found: &mut Findings,
     seen: &mut Seen,
 ) -> Result<(), String> {
-    let Made { record, check_time_ns, step_ps, meant } = made;
+    let Made { record, check_time_ns, step_ps, meant, stations } = made;
     let sequence = record.into_model();
     let settings = sequence.settings();
     found.check(number, Duty::Sessions, sequence.last_session >= seen.session, || {
@@ -107,8 +105,8 @@ fn replay(
             sequence.last_session, seen.session
         )
     });
-    let stations = vec![StationRecord::FREE; STATIONS];
-    let mut lent = Lent { stations, ..bridge::lent(&settings) };
+    let table = vec![StationRecord::FREE; stations];
+    let mut lent = Lent { stations: table, ..bridge::lent(&settings) };
     let made = bridge::settings_to_impl(&settings).ok_or("a time is negative")?;
     let check_time = Duration::from_nanos(check_time_ns);
     let made = mufasa::monitor::Settings { check_time, step_ps, meant, ..made };
@@ -134,6 +132,7 @@ fn replay(
         follows: Follows::OwnPlan,
         brakes: false,
         stations: BTreeSet::new(),
+        most_stations: stations,
         line: number,
         found,
         seen,
@@ -203,7 +202,9 @@ struct Loop<'a> {
     follows: Follows,
     /// Whether the last decision said that control has to brake.
     brakes: bool,
+    /// The stations of the table, and its places.
     stations: BTreeSet<i64>,
+    most_stations: usize,
     line: usize,
     found: &'a mut Findings,
     seen: &'a mut Seen,
@@ -278,12 +279,17 @@ impl Loop<'_> {
         match kind {
             EventKind::Tick => self.is_ticked = true,
             EventKind::Cycle { .. } => self.cycle_ns = Some(*t_ns),
-            EventKind::Offer { station, .. } => {
-                self.stations.insert(*station);
-                if self.stations.len() > STATIONS {
-                    return Err(format!("line {}: more than {STATIONS} stations", self.line));
-                }
+            EventKind::Offer { station, .. } if self.stations.contains(station) => {}
+            EventKind::Offer { .. } if self.stations.len() >= self.most_stations => {
+                // It is refused, and changes nothing.
+                let actions = &answer["actions"];
+                let takes_none = actions.as_array().is_none_or(Vec::is_empty);
+                self.check(Duty::Actions, takes_none, || {
+                    format!("the loop took the actions {actions} of an offer beyond its table")
+                });
+                return Ok(());
             }
+            EventKind::Offer { station, .. } => drop(self.stations.insert(*station)),
             _ => {}
         }
         let (replayed, why) = self.monitor.step(&event);

@@ -6,12 +6,17 @@ use std::path::Path;
 
 use mufasa_drives::pictures::escape;
 
-/// The first table of a Markdown file.
-pub(super) fn table(root: &Path, file: &str, up: Option<&str>) -> String {
+/// The tables of a Markdown file, at most so many.
+pub(super) fn tables(root: &Path, file: &str, up: Option<&str>, most: usize) -> String {
     let text = fs::read_to_string(root.join(file)).unwrap_or_default();
+    let lines: Vec<&str> = text.lines().collect();
+    let blocks = lines.split(|it| !it.starts_with('|')).filter(|it| !it.is_empty());
+    blocks.take(most).map(|rows| table(rows, file, up)).collect()
+}
+
+fn table(rows: &[&str], file: &str, up: Option<&str>) -> String {
     let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let rows = text.lines().skip_while(|it| !it.starts_with('|'));
-    let rows = rows.take_while(|it| it.starts_with('|')).filter(|it| !it.starts_with("|--"));
+    let rows = rows.iter().filter(|it| !it.starts_with("|--"));
     let cells = rows.map(|row| {
         let row = row.replace("\\|", "\u{1}");
         let row = row.trim_start_matches('|').trim_end().trim_end_matches('|');
@@ -19,6 +24,16 @@ pub(super) fn table(root: &Path, file: &str, up: Option<&str>) -> String {
         row.split('|').map(words).collect()
     });
     html(cells.collect())
+}
+
+/// The lines of a Markdown file that begin with one of these, without what leads to a table below.
+pub(super) fn lines(root: &Path, file: &str, starts: &[&str], up: Option<&str>) -> String {
+    let text = fs::read_to_string(root.join(file)).unwrap_or_default();
+    let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let its = text.lines().filter(|line| starts.iter().any(|it| line.starts_with(it)));
+    its.map(|it| it.trim_end_matches(" The others:"))
+        .map(|it| format!("<p>{}</p>\n", inline(it, folder, up)))
+        .collect()
 }
 
 /// A table of comma-separated values, folded.

@@ -16,6 +16,15 @@ use crate::rows::{Rows, number, text};
 const STYLE: &str = include_str!("report.css");
 /// Most lines of a log that a page shows.
 const SHOWN: usize = 30;
+/// The page about tests, and how its sentences with figures begin.
+const COVERAGE: &str = "docs/coverage.md";
+const STRENGTH: [&str; 5] = [
+    "Measured with: ",
+    "Requirements that code cites: ",
+    "Lines with code that tests execute: ",
+    "Conditions that tests saw true and false: ",
+    "Commit ",
+];
 /// Documents whose first table has figures.
 const FIGURES: [(&str, &str); 4] = [
     ("docs/drives.md", "A drive, attacked: what is caught"),
@@ -54,7 +63,8 @@ pub(super) fn page(evidence: &Evidence, place: &Place<'_>) -> String {
         ("proofs", "Proofs", proofs(&place.out)),
         ("safety-case", "Safety case", documents::pictures(root, "docs/safety-case")),
         ("requirements", "Traceability", documents::matrix(root, "docs/requirements.csv")),
-        ("findings", "Open findings", documents::table(root, "docs/known-problems.md", up)),
+        ("strength", "Strength of the tests", strength(root, up)),
+        ("findings", "Open findings", documents::tables(root, "docs/known-problems.md", up, 9)),
         ("figures", "Figures", figures(root, up)),
         ("versions", "Versions", versions(evidence)),
         ("rest", "Where the rest is", rest(up)),
@@ -189,16 +199,24 @@ fn proofs(folder: &Path) -> String {
     if rows.is_empty() { String::new() } else { table.html().replace("--bar:", "--share:") }
 }
 
-/// Figures on record, and a cycle of the demo.
+/// What tests execute and notice, on record.
+fn strength(root: &Path, up: Option<&str>) -> String {
+    let said = documents::lines(root, COVERAGE, &STRENGTH, up);
+    let link = documents::link(COVERAGE, COVERAGE, up);
+    if said.is_empty() { said } else { format!("<p>From {link}, on record:</p>\n{said}") }
+}
+
+/// Figures on record, a cycle of the demo, and how far assumptions may be wrong.
 fn figures(root: &Path, up: Option<&str>) -> String {
     let table = |(file, words): (&str, &str)| {
-        let table = documents::table(root, file, up);
+        let table = documents::tables(root, file, up, 1);
         let link = documents::link(file, file, up);
         format!("<details>\n<summary>{words}</summary>\n<p>From {link}.</p>\n{table}</details>\n")
     };
     let tables = FIGURES.map(table).concat();
     format!("<p>These are on record. This run did not measure them anew.</p>\n{tables}")
         + &documents::picture(root, "docs/demo.svg")
+        + &documents::picture(root, "docs/margins.svg")
 }
 
 fn versions(evidence: &Evidence) -> String {

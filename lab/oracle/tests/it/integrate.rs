@@ -190,6 +190,24 @@ fn settings_actions_answers_advice_and_sessions_are_looked_at() {
 }
 
 #[test]
+fn an_offer_beyond_the_table_has_no_actions() {
+    let at = first(0, is("offer")) + 1;
+    let with = |it: &mut Vec<Value>, answer: &Value| {
+        it[0]["made"]["stations"] = json!(1);
+        let mut offer = it[at - 1].clone();
+        offer["call"]["event"]["station"] = json!(99);
+        offer["call"]["sender"]["station"] = json!(99);
+        offer["call"]["answer"] = answer.clone();
+        it.insert(at, offer);
+    };
+    let mut lines = CLEAN.clone();
+    with(&mut lines, &json!({}));
+    assert_eq!(examine(&text(&lines)).expect("it can be read").0.text("log"), "");
+    let release = json!({"actions": [{"activate": "plan"}]});
+    breaks(Duty::Actions, at, |it| with(it, &release));
+}
+
+#[test]
 fn a_restart_that_forgets_the_wait_is_noticed() {
     let asks = |line: &Value| line["call"]["answer"]["actions"][0]["send"] == "request";
     let at = first(0, asks);

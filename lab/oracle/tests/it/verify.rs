@@ -179,8 +179,9 @@ fn the_page_shows_all_and_fetches_nothing() {
     for (file, content) in [
         (
             "docs/known-problems.md",
-            "# A\n\n| id | | `x` |\n|---|---|---|\n| [F-19](../findings/F-19.md) | | a \\| <b> |\n",
+            "# A\n\n| id | | `x` |\n|---|---|---|\n| [F-19](../findings/F-19.md) | | a \\| <b> |\n\n| rest |\n|---|\n| F-05 |\n",
         ),
+        ("docs/coverage.md", "Words.\nLines with code that tests execute: 8 of 9. The others:\n"),
         ("docs/requirements.csv", "id,text\nR-1,\"a, <b>\nc\"\n"),
         ("docs/demo.svg", picture),
         ("docs/safety-case/top.svg", picture),
@@ -198,6 +199,8 @@ fn the_page_shows_all_and_fetches_nothing() {
         "it comes with the package of engines",
         "<a href=\"../../findings/F-19.md\">F-19</a></td><td></td><td>a | &lt;b&gt;</td>",
         "<th><code>x</code></th>",
+        "<td>F-05</td>",
+        "<p>Lines with code that tests execute: 8 of 9.</p>",
         "<td>R-1</td><td>a, &lt;b&gt;; c</td>",
         "alt=\"docs/safety-case/top.svg\"",
         "<body class=\"release\">",

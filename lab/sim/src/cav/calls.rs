@@ -139,5 +139,6 @@ fn made(settings: &Settings, cycle: &Cycle) -> Made {
         events: Vec::new(),
     };
     let record = Monitor::whole("loop", &sequence);
-    Made { record, check_time_ns: settings.period_ns.unsigned_abs(), step_ps: 0, meant: u32::MAX }
+    let check_time_ns = settings.period_ns.unsigned_abs();
+    Made { record, check_time_ns, step_ps: 0, meant: u32::MAX, stations: 256 }
 }
