@@ -8,8 +8,7 @@
 #include "mufasa.h"
 
 #define MS INT64_C(1000000)
-/* As docs/configuration.md advises: 100 ms would be all of tau, with nothing left for the check and the brake (A-07),
- * and would need a larger dt_max, which has to be above the period. */
+/* As docs/configuration.md advises. At 100 ms it asks for a tau of 0.4 s and a dt_max of 220 ms. */
 #define PERIOD_MS 50
 #define SECOND (1000 / PERIOD_MS) /* cycles */
 #define CYCLES (20 * SECOND)
@@ -22,7 +21,7 @@
 /* What the station was asked for: the sessions of MOT and PLAN, 0 for none. */
 static int64_t asked[2], running[2];
 static int planner_stands; /* whether the CAV's own planner is stopped */
-static size_t fallbacks;
+static size_t fallbacks, ignored;
 
 static void check(MufasaStatus status, const char *what) {
   if (status == MUFASA_STATUS_OK) return;
@@ -53,7 +52,13 @@ static void take(const struct MufasaActions *actions) {
 
 static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
   struct MufasaActions actions;
-  check(mufasa_monitor_step(monitor, &event, &actions), "an event");
+  const MufasaStatus status = mufasa_monitor_step(monitor, &event, &actions);
+  if (status == MUFASA_STATUS_TABLE_FULL || status == MUFASA_STATUS_INVALID_STATION) {
+    /* A station can cause these two. Its message is ignored, and the loop goes on. */
+    ++ignored;
+    return;
+  }
+  check(status, "an event");
   take(&actions);
 }
 
@@ -142,7 +147,7 @@ int main(void) {
       MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH;
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
-  size_t offloaded = 0, copied = 0;
+  size_t offloaded = 0, copied = 0, advised = 0;
   struct MufasaTrajectoryPoint kept[POINTS]; /* of the last verified trajectory */
   size_t kept_len = 0;
   struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of the last verified trajectory */
@@ -156,6 +161,9 @@ int main(void) {
       event.event_type = MUFASA_EVENT_TYPE_OFFER;
       event.groups = MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN;
       step(monitor, event);
+      event.station = 0;
+      step(monitor, event);
+      event.station = 1;
     }
     event.event_type = MUFASA_EVENT_TYPE_CONFIRM;
     for (int plan = 0; plan < 2; ++plan) {
@@ -202,7 +210,7 @@ int main(void) {
     /* What this program seems to get wrong: nothing. */
     if (decision.advice != MUFASA_ADVICE_NONE) {
       fprintf(stderr, "%s\n", mufasa_advice_text(decision.advice));
-      return 1;
+      ++advised;
     }
     take(&decision.actions);
   }
@@ -210,5 +218,5 @@ int main(void) {
   free(monitor);
   /* The last cycle was offloaded. */
   const int64_t covered_ns = brake_by.ns - PERIOD_MS * MS * (CYCLES - 1);
-  return fallbacks == 1 && copied == 1 && offloaded > 160 && covered_ns == 250 * MS ? 0 : 1;
+  return fallbacks == 1 && ignored == 1 && advised == 0 && copied == 1 && offloaded > 160 && covered_ns == 250 * MS ? 0 : 1;
 }

@@ -752,7 +752,7 @@ typedef struct MufasaCycle {
   uint32_t profile;
   // A MufasaConfiguration.
   uint32_t configuration;
-  // Time of the decision on the CAV's monotonic clock.
+  // When pose and speed of the CAV were measured, on its monotonic clock; at another time tau counts their age, too (H-14.14).
   struct MufasaTime now;
   // Start from `mufasa_parameters_default`.
   struct MufasaParameters parameters;

@@ -243,7 +243,7 @@ pub struct MufasaCycle {
     pub profile: u32,
     /// A MufasaConfiguration.
     pub configuration: u32,
-    /// Time of the decision on the CAV's monotonic clock.
+    /// When pose and speed of the CAV were measured, on its monotonic clock; at another time tau counts their age, too (H-14.14).
     pub now: MufasaTime,
     /// Start from `mufasa_parameters_default`.
     pub parameters: MufasaParameters,

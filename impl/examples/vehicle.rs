@@ -12,11 +12,12 @@ use mufasa::input::scratch::{Column, Row};
 use mufasa::monitor::{
     Accepted, Arrival, Decision, Gap, Inputs, Memory, Message, Monitor, Settings, Time, Verified,
 };
-use mufasa::offloading::requester::{Action, Actions, Group, Groups, StationRecord};
+use mufasa::offloading::requester::{
+    Action, Actions, Group, Groups, RequesterError, StationRecord,
+};
 use mufasa::services::configuration::Configuration;
 
-/// As `docs/configuration.md` advises: 100 ms would be all of `tau`, with nothing left for the check and the
-/// brake, and would need a larger `dt_max`, which has to be above the period.
+/// As `docs/configuration.md` advises. At 100 ms it asks for a `tau` of 0.4 s and a `dt_max` of 220 ms.
 const PERIOD: Duration = Duration::from_millis(50);
 /// Cycles in a second, and in the whole loop.
 const SECOND: i64 = 20;
@@ -47,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     monitor.set_route(&Route { closed: false, cross_sections: &route })?;
 
     let mut station = Station::default();
-    let (mut driven, mut fallbacks, mut copied) = (Vec::new(), 0, 0);
+    let (mut driven, mut fallbacks, mut copied, mut advised) = (Vec::new(), 0, 0, 0);
     // The last verified trajectory: followed where no other is there, also after an unsafe cycle, until its `brake_by`.
     // The CAV brakes fully by then, so begins earlier by the build-up of its brakes; here it is then no point.
     // Control, which runs more often than cycles do, has to look at that time itself.
@@ -62,19 +63,20 @@ fn main() -> Result<(), Box<dyn Error>> {
 
         // What came over the network since the last period, and time itself.
         if cycle == 0 {
-            station.take(&monitor.offer(now, 1, Groups::ALL)?);
+            station.hear(monitor.offer(now, 1, Groups::ALL));
+            station.hear(monitor.offer(now, 0, Groups::ALL));
         }
         for (group, session) in std::mem::take(&mut station.asked) {
-            station.take(&monitor.confirm(now, 1, group, session)?);
+            station.hear(monitor.confirm(now, 1, group, session));
         }
         station.take(&monitor.tick(now));
         let aside = if (4 * SECOND..5 * SECOND).contains(&cycle) { 3.0 } else { 0.0 };
         if let Some(message) = station.tracks(now, world.tracks(aside)).filter(|_| cycle != LOST) {
-            tracks = accepted(monitor.tracks(now, message)?, &mut station).or(tracks);
+            tracks = station.accepted(monitor.tracks(now, message)).or(tracks);
         }
         if let Some(message) = station.trajectory(now, world.trajectory()).filter(|_| cycle != LOST)
         {
-            trajectory = accepted(monitor.trajectory(now, message)?, &mut station).or(trajectory);
+            trajectory = station.accepted(monitor.trajectory(now, message)).or(trajectory);
         }
 
         // What the CAV measured and planned itself.
@@ -125,15 +127,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         station.take(&actions);
         // What this program seems to get wrong: nothing.
         if let Some(advice) = monitor.advice() {
-            return Err(advice.message().into());
+            println!("{}", advice.message());
+            advised += 1;
         }
         if cycle % SECOND == 0 {
             println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
         }
     }
-    if fallbacks != 1 || copied != 1 || monitor.configuration() != Configuration::AllRemote {
-        let configuration = monitor.configuration();
-        return Err(format!("{fallbacks} fallbacks, {copied} copies, {configuration:?}").into());
+    let (configuration, ignored) = (monitor.configuration(), station.ignored);
+    if [fallbacks, copied, ignored, advised] != [1, 1, 1, 0]
+        || configuration != Configuration::AllRemote
+    {
+        return Err(format!("{fallbacks} fallbacks, {copied} copies, {ignored} ignored, {advised} advices, {configuration:?}").into());
     }
     println!("{} points driven, one fallback, offloading again", driven.len());
     Ok(())
@@ -149,20 +154,6 @@ fn follow(
 /// The CAV's own plan.
 fn first(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
     points.first().copied()
-}
-
-fn accepted<L>(
-    (arrival, actions): (Arrival<L>, Actions),
-    station: &mut Station,
-) -> Option<Accepted<L>> {
-    station.take(&actions);
-    match arrival {
-        Arrival::Accepted(element) => Some(element),
-        Arrival::Dropped { why } => {
-            println!("dropped: {why}");
-            None
-        }
-    }
 }
 
 fn seconds(cycle: i64) -> f64 {
@@ -234,9 +225,41 @@ struct Station {
     plan: Option<i64>,
     /// Whether the CAV's own planner is stopped.
     planner_stands: bool,
+    ignored: u32,
 }
 
 impl Station {
+    /// What the monitor says to a message. A station can make it an error: it names a station below 1, or one for which
+    /// the table has no place. Nothing has changed then, and the loop goes on.
+    fn hear(&mut self, said: Result<Actions, RequesterError>) {
+        match said {
+            Ok(actions) => self.take(&actions),
+            Err(why) => {
+                println!("ignored: {why}");
+                self.ignored += 1;
+            }
+        }
+    }
+
+    /// The data that were accepted, if they were.
+    fn accepted<L>(
+        &mut self,
+        said: Result<(Arrival<L>, Actions), RequesterError>,
+    ) -> Option<Accepted<L>> {
+        let (arrival, actions) = match said {
+            Ok((arrival, actions)) => (Some(arrival), Ok(actions)),
+            Err(why) => (None, Err(why)),
+        };
+        self.hear(actions);
+        match arrival? {
+            Arrival::Accepted(element) => Some(element),
+            Arrival::Dropped { why } => {
+                println!("dropped: {why}");
+                None
+            }
+        }
+    }
+
     /// Where the vehicle's actions go: to the network, and to its own services.
     fn take(&mut self, actions: &Actions) {
         for action in actions {
