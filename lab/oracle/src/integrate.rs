@@ -140,7 +140,7 @@ fn replay(
     for (number, line) in calls {
         examined.line = number;
         match line {
-            Line::Call(call) => examined.call(*call)?,
+            Line::Call(call) => examined.call(*call),
             Line::Control { t_ns, follows } => examined.control(t_ns, follows),
             Line::Made(_) => {}
         }
@@ -259,7 +259,7 @@ impl Loop<'_> {
         self.brake_in_time(t_ns);
     }
 
-    fn call(&mut self, call: Call) -> Result<(), String> {
+    fn call(&mut self, call: Call) {
         let Call { event, sender, took_ns, mut answer, advice } = call;
         let words = json!(event);
         let event = event.into_model();
@@ -287,7 +287,7 @@ impl Loop<'_> {
                 self.check(Duty::Actions, takes_none, || {
                     format!("the loop took the actions {actions} of an offer beyond its table")
                 });
-                return Ok(());
+                return;
             }
             EventKind::Offer { station, .. } => drop(self.stations.insert(*station)),
             _ => {}
@@ -317,7 +317,6 @@ impl Loop<'_> {
         self.check(Duty::Arithmetic, agrees(&answer, &replayed), || {
             format!("the answer is {answer}, replayed {replayed}")
         });
-        Ok(())
     }
 
     fn cycle(&mut self, replayed: &Answer, is_heard: bool, took_ns: u64, has_asked: bool) {

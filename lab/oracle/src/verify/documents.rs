@@ -31,9 +31,11 @@ pub(super) fn lines(root: &Path, file: &str, starts: &[&str], up: Option<&str>) 
     let text = fs::read_to_string(root.join(file)).unwrap_or_default();
     let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
     let its = text.lines().filter(|line| starts.iter().any(|it| line.starts_with(it)));
-    its.map(|it| it.trim_end_matches(" The others:"))
-        .map(|it| format!("<p>{}</p>\n", inline(it, folder, up)))
-        .collect()
+    let paragraph = |it: &str| {
+        let words = inline(it.trim_end_matches(" The others:"), folder, up);
+        format!("<p>{words}</p>\n")
+    };
+    its.map(paragraph).collect()
 }
 
 /// A table of comma-separated values, folded.
