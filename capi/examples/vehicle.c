@@ -50,16 +50,20 @@ static void take(const struct MufasaActions *actions) {
   }
 }
 
-static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
-  struct MufasaActions actions;
-  const MufasaStatus status = mufasa_monitor_step(monitor, &event, &actions);
+/* What the monitor says to a message, or to a tick. */
+static void hear(MufasaStatus status, const struct MufasaActions *actions) {
   if (status == MUFASA_STATUS_TABLE_FULL || status == MUFASA_STATUS_INVALID_STATION) {
     /* A station can cause these two. Its message is ignored, and the loop goes on. */
     ++ignored;
     return;
   }
-  check(status, "an event");
-  take(&actions);
+  check(status, "a call");
+  take(actions);
+}
+
+static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
+  struct MufasaActions actions;
+  hear(mufasa_monitor_step(monitor, &event, &actions), &actions);
 }
 
 static struct MufasaMonitor *make_monitor(void) {
@@ -131,14 +135,13 @@ static void receive(struct MufasaMonitor *monitor, struct MufasaTime now, const 
     struct MufasaTrackMessage message;
     message.station = 1, message.session = running[0], message.generated = now;
     message.tracks.stamp = now, message.tracks.items = w->tracks, message.tracks.items_len = CARS;
-    /* What a station sends may not fit: then it is ignored. */
-    if (mufasa_monitor_tracks(monitor, now, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
+    hear(mufasa_monitor_tracks(monitor, now, &message, &actions), &actions);
   }
   if (running[1] != 0) {
     struct MufasaTrajectoryMessage message;
     message.station = 1, message.session = running[1], message.generated = now;
     message.trajectory = w->plan;
-    if (mufasa_monitor_trajectory(monitor, now, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
+    hear(mufasa_monitor_trajectory(monitor, now, &message, &actions), &actions);
   }
 }
 

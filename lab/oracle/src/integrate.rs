@@ -131,7 +131,8 @@ fn replay(
         released: BTreeMap::new(),
         follows: Follows::OwnPlan,
         brakes: false,
-        stations: BTreeSet::new(),
+        offers: BTreeSet::new(),
+        asked: BTreeSet::new(),
         most_stations: stations,
         line: number,
         found,
@@ -202,8 +203,9 @@ struct Loop<'a> {
     follows: Follows,
     /// Whether the last decision said that control has to brake.
     brakes: bool,
-    /// The stations of the table, and its places.
-    stations: BTreeSet<i64>,
+    /// The stations that have a place of the table, since they offer something or were asked; and its places.
+    offers: BTreeSet<i64>,
+    asked: BTreeSet<i64>,
     most_stations: usize,
     line: usize,
     found: &'a mut Findings,
@@ -259,6 +261,12 @@ impl Loop<'_> {
         self.brake_in_time(t_ns);
     }
 
+    /// Whether the table has a place for a station, or one is its own.
+    fn has_place(&self, station: i64) -> bool {
+        let taken: BTreeSet<_> = self.offers.union(&self.asked).collect();
+        taken.contains(&station) || taken.len() < self.most_stations
+    }
+
     fn call(&mut self, call: Call) {
         let Call { event, sender, took_ns, mut answer, advice } = call;
         let words = json!(event);
@@ -279,8 +287,9 @@ impl Loop<'_> {
         match kind {
             EventKind::Tick => self.is_ticked = true,
             EventKind::Cycle { .. } => self.cycle_ns = Some(*t_ns),
-            EventKind::Offer { station, .. } if self.stations.contains(station) => {}
-            EventKind::Offer { .. } if self.stations.len() >= self.most_stations => {
+            EventKind::Offer { station, groups }
+                if !groups.is_empty() && !self.has_place(*station) =>
+            {
                 // It is refused, and changes nothing.
                 let actions = &answer["actions"];
                 let takes_none = actions.as_array().is_none_or(Vec::is_empty);
@@ -289,14 +298,20 @@ impl Loop<'_> {
                 });
                 return;
             }
-            EventKind::Offer { station, .. } => drop(self.stations.insert(*station)),
+            EventKind::Offer { station, groups } if !groups.is_empty() => {
+                self.offers.insert(*station);
+            }
+            EventKind::Offer { station, .. }
+            | EventKind::Withdraw { station }
+            | EventKind::Lost { station } => drop(self.offers.remove(station)),
             _ => {}
         }
         let (replayed, why) = self.monitor.step(&event);
         self.seen.see("message that is dropped", why.is_some());
         for action in &replayed.actions {
             self.seen.see("release", matches!(action, Action::Release { .. }));
-            if let Action::Request { session, .. } = action {
+            if let Action::Request { station, session, .. } = action {
+                self.asked.insert(*station);
                 self.seen.session = self.seen.session.max(*session);
                 let since_ns = t_ns.saturating_sub(self.first_ns.unwrap_or(*t_ns));
                 self.found.check(self.line, Duty::Wait, since_ns >= self.waits_ns, || {

@@ -1,5 +1,5 @@
 //! Stage i of the implementation against the exact model
-//! (`spec/3-stages.md#stage-i-track-validation`, H-01): H-01.3, H-01.5, SEEN-04.
+//! (`spec/3-stages.md#stage-i-track-validation`, H-01): H-01.3, H-01.5 (too many columns alone), SEEN-04.
 
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::differential::{agree, near_threshold};

@@ -1,5 +1,5 @@
 //! The first witness in the order of the rules: the implementation's is the model's
-//! (`spec/3-stages.md#schedule`): SCHED-14, SCHED-19.
+//! (`spec/3-stages.md#schedule`): SCHED-19.
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{hold, near_threshold, same_witness};

@@ -64,7 +64,11 @@ pub(super) fn page(evidence: &Evidence, place: &Place<'_>) -> String {
         ("safety-case", "Safety case", documents::pictures(root, "docs/safety-case")),
         ("requirements", "Traceability", documents::matrix(root, "docs/requirements.csv")),
         ("strength", "Strength of the tests", strength(root, up)),
-        ("findings", "Open findings", documents::tables(root, "docs/known-problems.md", up, 9)),
+        (
+            "findings",
+            "Open findings, and rests of closed ones",
+            documents::tables(root, "docs/known-problems.md", up, 9),
+        ),
         ("figures", "Figures", figures(root, up)),
         ("versions", "Versions", versions(evidence)),
         ("rest", "Where the rest is", rest(up)),

@@ -203,6 +203,13 @@ fn an_offer_beyond_the_table_has_no_actions() {
     let mut lines = CLEAN.clone();
     with(&mut lines, &json!({}));
     assert_eq!(examine(&text(&lines)).expect("it can be read").0.text("log"), "");
+    // A place is free again when its station withdraws before it was asked: then the offer is taken, and asked at a tick.
+    let mut withdraw = lines[at - 1].clone();
+    withdraw["call"]["event"]["type"] = json!("withdraw");
+    drop(withdraw["call"]["event"].as_object_mut().map(|it| it.remove("groups")));
+    lines.insert(at, withdraw);
+    let found = examine(&text(&lines)).expect("it can be read").0;
+    assert!(found.broken().iter().any(|it| it.0 == Duty::Actions), "{}", found.text("log"));
     let release = json!({"actions": [{"activate": "plan"}]});
     breaks(Duty::Actions, at, |it| with(it, &release));
 }
@@ -221,6 +228,7 @@ fn a_restart_that_forgets_the_wait_is_noticed() {
     let later = CLEAN.iter().filter(|it| !is_early(it)).cloned();
     let lines: Vec<Value> = CLEAN.iter().cloned().chain(later).collect();
     assert!(lines.len() < 2 * CLEAN.len(), "an early offer is left out");
+    assert!(lines[CLEAN.len()..].iter().any(asks), "and a later one is asked");
     let (found, _) = examine(&text(&lines)).expect("it can be read");
     assert!(found.broken().iter().all(|it| it.0 != Duty::Wait), "{}", found.text("log"));
 }
