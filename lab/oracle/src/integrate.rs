@@ -11,6 +11,7 @@ use mufasa::offloading::requester::StationRecord;
 use mufasa_model::input::cycle::Route;
 use mufasa_model::monitor::messages::{Answer, Event, EventKind};
 use mufasa_model::offloading::requester::Action;
+use mufasa_model::services::configuration::Groups;
 use mufasa_props::bridge::{self, Bridged};
 use mufasa_props::lent::Lent;
 use mufasa_records::calls::{Call, Follows, Line, Made, Sender};
@@ -288,7 +289,7 @@ impl Loop<'_> {
             EventKind::Tick => self.is_ticked = true,
             EventKind::Cycle { .. } => self.cycle_ns = Some(*t_ns),
             EventKind::Offer { station, groups }
-                if !groups.is_empty() && !self.has_place(*station) =>
+                if *groups != Groups::NONE && !self.has_place(*station) =>
             {
                 // It is refused, and changes nothing.
                 let actions = &answer["actions"];
@@ -298,7 +299,7 @@ impl Loop<'_> {
                 });
                 return;
             }
-            EventKind::Offer { station, groups } if !groups.is_empty() => {
+            EventKind::Offer { station, groups } if *groups != Groups::NONE => {
                 self.offers.insert(*station);
             }
             EventKind::Offer { station, .. }
