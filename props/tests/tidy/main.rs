@@ -159,6 +159,38 @@ fn every_file_that_is_named_exists() {
     judge(&links::named(&Tree::here()), ELSEWHERE);
 }
 
+/// The README repeats figures of a page that is measured anew.
+#[test]
+fn the_readme_has_the_figures_of_coverage() {
+    let tree = Tree::here();
+    let [readme, page] = ["README.md", "docs/coverage.md"].map(|it| tree.0[it].as_str());
+    let said = readme.split_once("Tests execute ").and_then(|it| it.1.split_once(" ([coverage]"));
+    let is_figure = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    let figures: Vec<&str> =
+        said.unwrap_or_default().0.split([' ', '\n', ',']).filter(is_figure).collect();
+    let [lines, conditions, changes, first, then, asked] = figures[..] else {
+        panic!("{figures:?}");
+    };
+    for sentence in [
+        format!("Lines with code that tests execute: {}", share(page, "Lines with code", lines)),
+        format!(
+            "Conditions that tests saw true and false: {}",
+            share(page, "Conditions", conditions)
+        ),
+        format!("noticed {first} of {changes} changes"),
+        format!("were asked about {asked} and noticed {then};"),
+    ] {
+        assert!(page.contains(&sentence), "{sentence}");
+    }
+}
+
+/// Of the line of a page that begins so the counts with this share.
+fn share(page: &str, start: &str, percent: &str) -> String {
+    let line = page.lines().find(|it| it.starts_with(start)).unwrap_or_default();
+    let counts = line.split_once(": ").and_then(|it| it.1.split_once(" (")).unwrap_or_default().0;
+    format!("{counts} ({percent} %)")
+}
+
 /// Nobody types an interval.
 #[test]
 fn intervals_are_those_of_their_counts() {
