@@ -937,7 +937,7 @@ typedef struct MufasaMonitorSettings {
   // The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
   // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
   // periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. In the
-  // hardened profile `stages.tau`, in seconds, has to be above it, too.
+  // hardened profile `stages.tau`, in seconds, has to be at least 2.5 of it, unless less is meant.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
@@ -1195,7 +1195,7 @@ MUFASA_MUST_USE
 MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
                                     struct MufasaRequesterState *state);
 
-// The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
+// The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
 // 256 detections and 640 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 

@@ -155,7 +155,12 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         }
         // IMPL-15
         MonitorError::Unusual(Unusual { field, value, least, most }) => {
-            let message = "no road vehicle has that; is it in another unit? Else name it in meant";
+            let message = match field {
+                "stages.tau" => {
+                    "too short for a fallback (A-07), or in another unit; else name it in meant"
+                }
+                _ => "no road vehicle has that; is it in another unit? Else name it in meant",
+            };
             MufasaSettingsProblem { value, least, most, ..told(period_ns(field), message) }
         }
     };

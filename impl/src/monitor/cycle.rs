@@ -225,11 +225,8 @@ impl Monitor<'_> {
         let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
             let indexes = Indexes { route, detections: &[] };
             let late = too_long(&self.settings, &self.in_time, &cycle);
-            if tracks_fit {
-                return check_unless(late, &cycle, &indexes, scratch);
-            }
             let report = check_unless(late, &cycle, &indexes, scratch);
-            if_kept(&report, [true, false])?;
+            if_kept(&report, [true, tracks_fit])?;
             return report;
         };
         let holds = self.history.holds(&list);

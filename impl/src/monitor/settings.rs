@@ -31,7 +31,7 @@ pub struct Settings {
     pub requester: requester::Parameters,
     /// The nominal period of the cycles and of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
     /// at equality one nanosecond of jitter ends the session; and in the hardened profile `stages.tau` has to
-    /// be above it.
+    /// be at least 2.5 of it, unless less is meant.
     pub period: Duration,
     /// At least the last session of the monitor's earlier lives, from 0 to 2^63 - 2: sessions of this one are
     /// numbered on from there, so that no message of an earlier life fits. A number stored at the last
@@ -53,12 +53,15 @@ pub struct Settings {
 
 impl Settings {
     /// The hardened profile and the defaults of the paper, in a first life. The default of
-    /// `dt_max_ns`, 100 ms, is for periods below it; for others choose a larger one. Source:
-    /// `spec/monitor.md#monitor`.
+    /// `dt_max_ns`, 100 ms, is for periods below it; for others choose a larger one. `stages.tau` is three periods and
+    /// 0.1 s for the brake: the vehicle's own is to be measured. Source: `spec/4-arithmetic.md#usual-settings`.
     pub fn new(period: Duration) -> Self {
+        let tau = period.saturating_mul(3).saturating_add(Duration::from_millis(100));
+        // DOM-02
+        let tau = tau.min(Duration::from_secs(60)).as_secs_f64();
         Self {
             profile: Profile::HARDENED,
-            stages: Parameters::default(),
+            stages: Parameters { tau, ..Parameters::default() },
             requester: requester::Parameters::default(),
             period,
             sessions_before: 0,
@@ -106,7 +109,13 @@ impl Settings {
     }
 
     fn rows(&self) -> [Unusual; 24] {
-        rows(&self.stages, &self.requester, self.period, self.step_ps)
+        let least_tau = if self.stops() { 2.5 * self.period.as_secs_f64() } else { 0.0 };
+        rows(&self.stages, &self.requester, self.period, self.step_ps, least_tau)
+    }
+
+    /// Whether a rule reckons the way to stop, which needs `tau`.
+    fn stops(&self) -> bool {
+        self.profile.has(HardenedRule::H04) || self.profile.has(HardenedRule::H14)
     }
 
     /// Whether a monitor may be made with it, apart from its memory.
@@ -135,9 +144,8 @@ impl Settings {
             return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
         }
         let tau = self.stages.tau;
-        // MON-27: both reckon the way to stop from one cycle to the next that can fail.
-        let stops = self.profile.has(HardenedRule::H04) || self.profile.has(HardenedRule::H14);
-        if stops && tau <= self.period.as_secs_f64() {
+        // MON-27: the way to stop is reckoned from one cycle to the next that can fail.
+        if self.stops() && tau <= self.period.as_secs_f64() {
             return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
         }
         // MON-29; A-17

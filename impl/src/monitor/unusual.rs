@@ -28,17 +28,22 @@ impl fmt::Display for Unusual {
             f,
             "settings.{field} = {value} is not from {least} to {most}, as road vehicles have it; "
         )?;
-        f.write_str("is it in another unit? Where it is meant, name it in Settings::meaning")
+        if *field == "stages.tau" {
+            f.write_str("does it last until full braking, after the next cycle and the first plan of local services? ")?;
+        }
+        f.write_str("Is it in another unit? Where it is meant, name it in Settings::meaning")
     }
 }
 
-/// Each setting with its usual range. The places are those of `meant`.
+/// Each setting with its usual range. `least_tau`: what the profile asks for at this period, s. The places are those of
+/// `meant`.
 #[allow(clippy::cast_precision_loss, reason = "compared with powers of ten")]
 pub(super) fn rows(
     stages: &Parameters,
     requester: &requester::Parameters,
     period: Duration,
     step_ps: u64,
+    least_tau: f64,
 ) -> [Unusual; 24] {
     // IMPL-14
     const MS: f64 = 1e6;
@@ -53,7 +58,7 @@ pub(super) fn rows(
         row("stages.max_age_ns", stages.max_age_ns as f64, [MS, S]),
         row("stages.theta_track_max", stages.theta_track_max, [0.1, 3.0]),
         row("stages.miss_budget", stages.miss_budget as f64, [0.0, 16.0]),
-        row("stages.tau", stages.tau, [0.01, 5.0]),
+        row("stages.tau", stages.tau, [least_tau.max(0.01), 5.0]),
         row("stages.a_max", stages.a_max, [0.5, 12.0]),
         row("stages.start_tolerance", stages.start_tolerance, [0.1, 10.0]),
         row("stages.v_max", stages.v_max, [5.0, 150.0]),

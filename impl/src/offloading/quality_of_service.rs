@@ -100,7 +100,7 @@ impl Arrivals {
     /// `dt_max`. `now_ns`: time of the tick or of the arrival. Source:
     /// `spec/2-offloading.md#quality-of-service`.
     pub fn silence(&self, now_ns: i64, limits: Limits) -> Option<Violation> {
-        // QOS-03
+        // QOS-03, QOS-04
         (difference(now_ns, self.last_arrival_ns) > i128::from(limits.dt_max_ns))
             .then_some(Violation::InterArrival)
     }
@@ -132,7 +132,7 @@ mod tests {
 
     const LIMITS: Limits = Limits { l_max_ns: 50, dt_max_ns: 100 };
 
-    /// QOS-03
+    /// QOS-03, QOS-04
     #[test]
     fn beyond_l_max_or_dt_max_is_a_violation_and_equality_is_not() {
         assert_eq!(latency_violation(50, 0, LIMITS), None);

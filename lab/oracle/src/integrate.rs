@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
-use mufasa::monitor::{Advice, Monitor, MonitorError};
+use mufasa::monitor::{Advice, Monitor, MonitorError, Unusual};
 use mufasa::offloading::requester::StationRecord;
 use mufasa_model::input::cycle::Route;
 use mufasa_model::monitor::messages::{Answer, Event, EventKind};
@@ -158,7 +158,8 @@ fn set_route(monitor: &mut Monitor<'_>, route: &Route) -> Result<(), String> {
 
 fn duty_of(error: &MonitorError) -> Duty {
     match error {
-        MonitorError::TauNotAbovePeriod { .. } => Duty::Tau,
+        MonitorError::TauNotAbovePeriod { .. }
+        | MonitorError::Unusual(Unusual { field: "stages.tau", .. }) => Duty::Tau,
         MonitorError::Memory { .. } | MonitorError::TooSlow { .. } => Duty::CheckTime,
         MonitorError::SessionsBefore { .. } => Duty::Sessions,
         MonitorError::Stages(_)

@@ -14,6 +14,7 @@ use mufasa_props::bridge;
 use mufasa_records::{names, record};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use serde_json::{Map, Value};
 
 use crate::actions::{Actions, ToDo};
 use crate::arguments::{
@@ -83,8 +84,11 @@ impl Monitor {
         if let Some(parameters) = parameters {
             let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
             let json = json.map_err(|error| in_domain(parameters, "parameters", error))?;
-            let object = serde_json::from_str(&json.extract::<String>()?)
-                .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
+            let mut object: Map<String, Value> =
+                serde_json::from_str(&json.extract::<String>()?)
+                    .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
+            // That of a record is too short for a vehicle.
+            object.entry("tau").or_insert_with(|| settings.stages.tau.into());
             let (stages, requester) =
                 record::parameters::settings(object).map_err(|it| invalid(named(it)))?;
             settings.stages = bridge::cycle_parameters(&stages);

@@ -335,6 +335,7 @@ def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
         ({"parameters": {"dt_max_ns": 100_000_000}}, "dt_max_ns"),
         ({"parameters": {"dt_max_ns": -1}}, "parameters.dt_max_ns"),
         ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.1}}, "tau"),
+        ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.2}}, "tau"),
         ({"parameters": {"dt_max": 0.15}}, "dt_max"),
         ({"parameters": {"dt_max_ns": 150_000_000, "t_wait_ns": 10_000}}, "t_wait_ns"),
         ({"parameters": {"dt_max_ns": 150_000_000, "l_max_ns": 100_000_001}}, "max_age_ns"),

@@ -42,10 +42,10 @@ def left_out(record: dict[str, Any]) -> str | None:
 
 def started(record: dict[str, Any]) -> Monitor:
     period = timedelta(microseconds=record["period_ns"] // 1000)
-    given = {key: record[key] for key in ("profile", "parameters")}
-    # A record has the whole domain.
-    meant = [*record["parameters"], "period"]
-    monitor = Monitor(period, sessions_before=record["last_session"], meant=meant, **given)
+    # A record has the whole domain, and its own default of tau.
+    parameters = {"tau": 0.1} | record["parameters"]
+    given = {"profile": record["profile"], "parameters": parameters, "meant": [*parameters, "period"]}
+    monitor = Monitor(period, sessions_before=record["last_session"], **given)
     monitor.set_route(record["route"]["stations"], closed=record["route"]["closed"])
     return monitor
 

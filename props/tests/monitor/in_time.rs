@@ -71,7 +71,7 @@ fn the_recommended_lists_are_in_time_at_30_metres_a_second() {
         })
         .collect();
     let settings = Settings::new(Duration::from_millis(50));
-    let parameters = Parameters { tau: 0.25, ..settings.stages };
+    let parameters = settings.stages;
     let ego = Ego { speed: 30.0, ..world.ego };
     let cycle = Cycle { parameters, ego, ..alone(&world, &road, &points, grid(0.2, &bits)) };
     let counts = Counts::of(&cycle);
@@ -148,7 +148,8 @@ fn a_cycle_that_may_be_late_is_refused() {
     let now = at(0);
     let inputs =
         Inputs::new(now, world.ego).local_trajectory(now, &points).grid(now, map(0.01, &bits));
-    let cycle = alone(&world, &road, &points, grid(0.01, &bits));
+    let mut cycle = alone(&world, &road, &points, grid(0.01, &bits));
+    cycle.parameters = within(1).stages;
     let counts = Counts { stations: 8, ..Counts::of(&cycle) };
     let total = most_steps(&counts, &cycle.parameters).total();
     for (steps, is_late) in [(total, false), (total - 1, true)] {

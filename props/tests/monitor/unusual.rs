@@ -7,7 +7,8 @@ use mufasa::monitor::{MonitorError, Settings, Unusual};
 
 use super::kit::settings;
 
-/// The rows of the table in the text, in its order: setting, least and most.
+/// The rows of the table in the text, in its order: setting, least and most. Of a number of periods that at the period
+/// of these tests.
 fn table() -> Vec<(String, f64, f64)> {
     let text = include_str!("../../../spec/4-arithmetic.md");
     let (_, text) = text.split_once("## Usual settings").expect("the section");
@@ -17,7 +18,13 @@ fn table() -> Vec<(String, f64, f64)> {
         let mut next = || cells.next().expect("a cell");
         let (field, least, most) = (next().to_owned(), next(), next());
         let unit = if field.ends_with("_ns") { 1e9 } else { 1.0 };
-        let [least, most] = [least, most].map(|it| it.parse::<f64>().expect("a number") * unit);
+        let number = |it: &str| match it.strip_suffix(" periods") {
+            Some(periods) => {
+                periods.parse::<f64>().expect("a number") * settings().period.as_secs_f64()
+            }
+            None => it.parse::<f64>().expect("a number") * unit,
+        };
+        let [least, most] = [least, most].map(number);
         (field, least, most)
     })
     .collect()
@@ -53,7 +60,7 @@ fn slips() -> Vec<(&'static str, Settings)> {
     slip("requester.request_timeout_ns", |it| it.requester.request_timeout_ns = 0);
     slip("requester.l_max_ns", |it| it.requester.l_max_ns = 0);
     slip("period", |it| {
-        (it.period, it.stages.tau) = (Duration::from_millis(1_001), 2.5);
+        (it.period, it.stages.tau) = (Duration::from_millis(1_001), 3.0);
         it.requester.dt_max_ns = 1_500_000_000;
     });
     slip("step_ps", |it| it.step_ps = 0);
@@ -99,6 +106,19 @@ fn bounds_and_defaults_are_usual() {
         settings.stages.a_b = a_b;
         assert_eq!(settings.check().is_ok(), is_usual, "{a_b}");
     }
+    let with = |profile, period, tau| {
+        let mut settings = Settings { profile, ..Settings::new(Duration::from_millis(period)) };
+        settings.stages.tau = tau;
+        settings.check().is_ok()
+    };
+    let short = 0.125_f64.next_down();
+    assert_eq!(
+        [0.125, short].map(|tau| with(Profile::HARDENED, 50, tau)),
+        [true, false],
+        "2.5 periods"
+    );
+    assert_eq!([0.01, 0.009].map(|tau| with(Profile::HARDENED, 1, tau)), [true, false]);
+    assert_eq!([0.01, 0.009].map(|tau| with(Profile::PAPER, 50, tau)), [true, false]);
     let mut nothing = settings();
     nothing.stages.a_b = f64::NAN;
     assert_eq!(nothing.unusual().map(|it| it.field).collect::<Vec<_>>(), ["stages.a_b"]);
