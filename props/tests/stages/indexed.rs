@@ -5,14 +5,21 @@
 use std::collections::BTreeMap;
 
 use mufasa::cycle::{check, check_indexed, check_with};
+use mufasa::input::cycle::Cycle as ImplCycle;
 use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::report::{FailedStage, Outcome, Rule, Stage, Witness};
-use mufasa_model::input::cycle::{CrossSection, Cycle, Detection, Profile};
+use mufasa_model::input::cycle::{
+    CrossSection, Cycle, Detection, DetectionList, Profile, TrackList,
+};
+use mufasa_model::report::{Reading, Rule as ModelRule};
+use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::with_impl;
-use mufasa_props::differential::runner;
+use mufasa_props::differential::{conforming, runner};
+use mufasa_props::strategy::base::{self, Frame};
 use mufasa_props::strategy::draw::{Draw, tape};
+use mufasa_props::strategy::track_validation::{detection, track};
 use mufasa_props::strategy::{map_validation, whole};
 use proptest::strategy::Strategy;
 
@@ -93,6 +100,20 @@ fn crowded(draw: &mut Draw<'_>) -> Cycle {
     cycle
 }
 
+/// Runs a job with an index of each list of detections, if all of them are valid.
+fn with_indexes<T>(
+    cycle: &ImplCycle<'_>,
+    job: impl FnOnce(&[DetectionIndex<'_>]) -> T,
+) -> Option<T> {
+    let lists: Vec<_> = cycle.detections.iter().chain(cycle.detection_history).collect();
+    let mut memory: Vec<_> =
+        lists.iter().map(|list| vec![Slot::default(); list.items.len()]).collect();
+    let indexes = lists.iter().zip(&mut memory);
+    let indexes: Result<Vec<_>, _> =
+        indexes.map(|(list, slots)| DetectionIndex::new(list, slots)).collect();
+    Some(job(&indexes.ok()?))
+}
+
 #[test]
 fn indexes_of_detections_change_no_answer() {
     let cycles = tape().prop_map(|tape| crowded(&mut Draw::new(&tape)));
@@ -100,21 +121,16 @@ fn indexes_of_detections_change_no_answer() {
     let result = runner().run(&cycles, |cycle| {
         with_impl(&cycle, |cycle, scratch| {
             let plain = check(cycle, scratch);
-            let lists: Vec<_> = cycle.detections.iter().chain(cycle.detection_history).collect();
-            let mut memory: Vec<_> =
-                lists.iter().map(|list| vec![Slot::default(); list.items.len()]).collect();
-            let indexes = lists.iter().zip(&mut memory).map(|(list, slots)| {
-                DetectionIndex::new(list, slots).map_err(|problem| problem.field)
+            let indexed = with_indexes(cycle, |all| {
+                // All lists, and all but one.
+                for detections in [all, all.get(1..).unwrap_or(&[])] {
+                    let indexes = Indexes { route: None, detections };
+                    assert_eq!(check_with(cycle, &indexes, scratch), plain);
+                }
             });
-            let indexes: Result<Vec<_>, _> = indexes.collect();
-            let Ok(all) = indexes else {
+            if indexed.is_none() {
                 assert!(plain.is_err());
                 return;
-            };
-            // All lists, and all but one.
-            for detections in [&all[..], all.get(1..).unwrap_or(&[])] {
-                let indexes = Indexes { route: None, detections };
-                assert_eq!(check_with(cycle, &indexes, scratch), plain);
             }
             let rule = plain.ok().and_then(|report| {
                 report.stages.iter().find_map(|outcome| match outcome {
@@ -134,5 +150,49 @@ fn indexes_of_detections_change_no_answer() {
     println!("indexes of detections: {rules:?}");
     for rule in [None, Some(Rule::FailSafe), Some(Rule::NoAssignment)] {
         assert!(rules.get(&rule).is_some_and(|count| *count > 10), "{rules:?}");
+    }
+}
+
+/// Two earlier lists of three items, of which the index has a row of three cells of 0.246 m: the first item in the
+/// first cell, the others in the last. Two tracks have no detection now: one is beside the first item, the other in
+/// its column, so far up.
+fn close_together(up: f64) -> Cycle {
+    let draw = &mut Draw::new(&[]);
+    let frame = Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    let mut cycle = base::cycle(draw, frame, Profile::HARDENED, Configuration::MotRemote);
+    let stamp_ns = cycle.now_ns;
+    let (corner, seen) = (Frame { x: 16.0, y: 16.0, ..frame }, (0.0, 40.0));
+    let items = [(0.0, 0.0), (0.38, 0.12), (0.6, 0.0)].map(|place| detection(corner, place));
+    let earlier =
+        |ms: i64| DetectionList { stamp_ns: stamp_ns - ms * 1_000_000, items: items.to_vec() };
+    cycle.detection_history = [300, 500].map(earlier).to_vec();
+    cycle.detections = Some(DetectionList { stamp_ns, items: vec![detection(frame, seen)] });
+    let missed = [(-0.2, -0.2), (0.11, up)].into_iter().zip(2..);
+    let mut items = vec![track(frame, seen, 1)];
+    items.extend(missed.map(|(place, id)| track(corner, place, id)));
+    cycle.tracks = Some(TrackList { stamp_ns, items });
+    cycle
+}
+
+/// SEEN-06, SEEN-07: the second track is in the first cell, and nearer to the second item than to the first. So each track
+/// has an origin of its own, and is backed. Farther down they share one, and neither is.
+#[test]
+fn the_nearest_item_may_be_two_short_cells_away() {
+    for (up, failure) in [(0.4, None), (0.2, Some(ModelRule::NoAssignment))] {
+        let cycle = close_together(up);
+        let [exact, strict] =
+            [Reading::Exact, Reading::Strict].map(|it| mufasa_model::cycle::check(&cycle, it));
+        assert_eq!(conforming(&cycle, &exact, &strict), Ok(()), "{up}");
+        for report in [exact, strict].map(|it| it.expect("valid")) {
+            assert_eq!(report.witness().map(|it| it.rule), failure, "{up}");
+            assert_eq!(report.failed_stage.is_some(), failure.is_some(), "{up}");
+        }
+        with_impl(&cycle, |cycle, scratch| {
+            let plain = check(cycle, scratch);
+            let indexed = with_indexes(cycle, |detections| {
+                check_with(cycle, &Indexes { route: None, detections }, scratch)
+            });
+            assert_eq!(indexed, Some(plain), "{up}");
+        });
     }
 }
