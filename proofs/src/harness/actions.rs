@@ -8,7 +8,7 @@ use super::any::{below, option};
 use crate::kani;
 
 /// The list holds exactly the actions there are: drops, releases, activations and deactivations,
-/// requests, MOT before PLAN within each.
+/// requests, MOT before PLAN within each [FALL-13].
 ///
 /// Domain: an action or none of each of the four kinds for each group, of one station and session,
 /// any one of them looked at. Not covered: which actions an event leads to, for which see `group`.

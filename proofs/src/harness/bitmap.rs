@@ -80,7 +80,7 @@ pub fn verify_a_free_row_has_no_set_cell() {
 }
 
 /// The cell that is found around another one is the first set one, by row, then column, whose squared
-/// distance is at most what is asked for, and the distance is the right one.
+/// distance is at most what is asked for, and the distance is the right one [S5-03].
 ///
 /// Domain: all grids of 4 by 4 cells, around a cell inside, squared distances of 1, 4 and 8. Not covered:
 /// other sizes, cells and distances.

@@ -15,7 +15,8 @@ use super::states::{any_group, any_record_of, any_state, any_station, withdrawal
 #[cfg(not(kani))]
 use crate::kani;
 
-/// A change of the area keeps every law of a step: see `keeps_every_law`.
+/// A change of the area keeps every law of a step: see `keeps_every_law` [REQ-04, REQ-18, REQ-19, FALL-13, PROTO-08,
+/// H-08.2, H-08.3].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_areas() {
     area(&|step: &Seen| {
@@ -25,7 +26,8 @@ pub fn verify_every_law_at_areas() {
     });
 }
 
-/// A verdict keeps every law of a step: see `keeps_every_law`.
+/// A verdict keeps every law of a step: see `keeps_every_law` [CONF-03, REQ-04, FALL-04, FALL-08, FALL-09, FALL-13,
+/// PROTO-08, PROTO-09, H-08.1, H-08.2, H-08.3].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_verdicts() {
     verdict(&|step: &Seen| {
@@ -37,7 +39,8 @@ pub fn verify_every_law_at_verdicts() {
     });
 }
 
-/// A confirmation keeps every law of a step: see `keeps_every_law`.
+/// A confirmation keeps every law of a step: see `keeps_every_law` [CONF-02, REQ-04, REQ-11, REQ-13, FALL-13, PROTO-08,
+/// H-08.2].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_confirmations() {
     confirm(&|step: &Seen, _, _| {
@@ -47,7 +50,7 @@ pub fn verify_every_law_at_confirmations() {
     });
 }
 
-/// A rejection keeps every law of a step: see `keeps_every_law`.
+/// A rejection keeps every law of a step: see `keeps_every_law` [REQ-04, REQ-16, FALL-13, PROTO-08, H-08.2, H-08.3].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_rejections() {
     reject(&|step: &Seen, _, _| {
@@ -57,7 +60,8 @@ pub fn verify_every_law_at_rejections() {
     });
 }
 
-/// Data keep every law of a step: see `keeps_every_law`.
+/// Data keep every law of a step: see `keeps_every_law` [REQ-04, FALL-06, FALL-07, FALL-08, FALL-09, FALL-13, PROTO-08,
+/// H-08.2, H-08.3].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_data() {
     data_of(&|step: &Seen, _, _| {
@@ -68,7 +72,7 @@ pub fn verify_every_law_at_data() {
 }
 
 /// A change of the area leaves exactly the groups outside it: each gets one release of its
-/// session, and nobody else any.
+/// session, and nobody else any [REQ-19].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_areas() {
     area(&|step: &Seen| {
@@ -83,7 +87,7 @@ pub fn verify_a_session_left_is_released_at_areas() {
 }
 
 /// A tick leaves exactly the groups that are overdue or silent, with one release of the session;
-/// nobody else gets any.
+/// nobody else gets any [REQ-14, QOS-04, QOS-06, FALL-10].
 ///
 /// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
 /// anything.
@@ -97,7 +101,7 @@ pub fn verify_a_session_left_is_released_at_ticks() {
     });
 }
 
-/// Data leave a group only with one release of its session.
+/// Data leave a group only with one release of its session [QOS-06].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_data() {
     data(&|step: &Seen| {
@@ -108,7 +112,7 @@ pub fn verify_a_session_left_is_released_at_data() {
 }
 
 /// A safety issue leaves every group, a safe verdict none, with one release of the session for
-/// each; after a safety issue all groups are local.
+/// each; after a safety issue all groups are local [FALL-01, FALL-02, PROTO-10].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_verdicts() {
     verdict(&|step: &Seen| {
@@ -124,7 +128,8 @@ pub fn verify_a_session_left_is_released_at_verdicts() {
 }
 
 /// A confirmation of the requested session before its deadline makes the group remote; any other
-/// but that of the running session is answered with a release of what it names.
+/// but that of the running session is answered with a release of what it names [REQ-10, REQ-11, REQ-12, REQ-13,
+/// PROTO-11].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_group_becomes_remote_by_confirmation() {
     confirm(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -155,7 +160,7 @@ pub fn verify_a_group_becomes_remote_by_confirmation() {
 }
 
 /// The frame: a confirmation of one group leaves the other group, the area, the times and the table as they
-/// are, and nothing is done about the other group.
+/// are, and nothing is done about the other group [REQ-11, REQ-13].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_confirmations() {
     confirm(&|step: &Seen, at: usize, _| {
@@ -165,7 +170,7 @@ pub fn verify_the_other_group_is_untouched_at_confirmations() {
 }
 
 /// The frame: a rejection of one group leaves the other group, the area, the times and the table as they
-/// are, and nothing is done about the other group.
+/// are, and nothing is done about the other group [REQ-16].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_rejections() {
     reject(&|step: &Seen, at: usize, _| {
@@ -175,7 +180,7 @@ pub fn verify_the_other_group_is_untouched_at_rejections() {
 }
 
 /// The frame: data of one group leave the other group, the area, the times and the table as they are, and
-/// nothing is done about the other group.
+/// nothing is done about the other group [QOS-06].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_data() {
     data_of(&|step: &Seen, at: usize, _| {
@@ -185,7 +190,7 @@ pub fn verify_the_other_group_is_untouched_at_data() {
 }
 
 /// A rejection of the requested session makes the group local; any other changes nothing; nobody
-/// hears of it.
+/// hears of it [REQ-15, REQ-16, PROTO-11].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_rejection_ends_a_request() {
     reject(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -200,7 +205,8 @@ pub fn verify_a_rejection_ends_a_request() {
     });
 }
 
-/// Data of any but the running session are dropped and counted, and change nothing else.
+/// Data of any but the running session are dropped and counted, and change nothing else [REQ-20, REQ-21, QOS-01,
+/// PROTO-11].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_data_of_another_session_are_dropped() {
     data_of(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -251,7 +257,7 @@ pub fn verify_a_group_depends_on_itself_alone_at_offers() {
     depends_on_itself_alone(kind, [any_record_of(station)]);
 }
 
-/// The composition of the two groups: which of them is left at a tick, and how, does not depend on the other.
+/// The composition of the two groups: which of them is left at a tick, and how, does not depend on the other [QOS-06].
 ///
 /// Domain: all pairs of states, valid or not, that differ in one group alone, all times of 64 bits. Not
 /// covered: tables; where somebody offers, a violation of one bars requests for the other (`ticks`).
@@ -292,7 +298,7 @@ fn depends_on_itself<const N: usize>(at: usize, kind: EventKind, table: [Station
 }
 
 /// A withdrawal and a loss leave exactly the groups that use the station, each with one release of
-/// the session after a withdrawal and none after a loss.
+/// the session after a withdrawal and none after a loss [REQ-23, REQ-24].
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.

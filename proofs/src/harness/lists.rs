@@ -20,7 +20,7 @@ const EAST: [f64; 2] = [1.0, 0.0];
 const TIMES_NS: [i64; 2] = [8, 24];
 
 /// A route of two cross sections is valid exactly when every number is within its domain and the
-/// reference points differ; no NaN is.
+/// reference points differ; no NaN is [INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits. Not covered: longer routes.
 #[cfg_attr(kani, kani::proof)]
@@ -46,7 +46,7 @@ pub fn verify_a_route_is_checked() {
 }
 
 /// A list of two tracks is valid exactly when every number is within its domain, the ids differ,
-/// and the stamp is at most 60 s from now, or older and the list not remote.
+/// and the stamp is at most 60 s from now, or older and the list not remote [INPUT-03, INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
 #[cfg_attr(kani, kani::proof)]
@@ -75,7 +75,7 @@ pub fn verify_tracks_are_checked() {
 }
 
 /// A list of two detections is valid exactly when every number is within its domain and the stamp
-/// is not more than 60 s ahead of now.
+/// is not more than 60 s ahead of now [INPUT-03, INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
 #[cfg_attr(kani, kani::proof)]
@@ -96,7 +96,7 @@ pub fn verify_detections_are_checked() {
 
 /// A trajectory of two points is valid exactly when every number is within its domain, times
 /// increase, and times are at most 60 s ahead of now and, unless the trajectory is too old to be
-/// used, at most 60 s old; a remote one that old is refused.
+/// used, at most 60 s old; a remote one that old is refused [INPUT-03, INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits, one direction. Not covered: longer lists, directions.
 #[cfg_attr(kani, kani::proof)]
@@ -119,7 +119,7 @@ pub fn verify_a_trajectory_is_checked() {
 }
 
 /// A lead is valid exactly when its gap is from 0 to 1e6 m, its speed from 0 to 150 m/s, and its
-/// stamp not more than 60 s ahead of now.
+/// stamp not more than 60 s ahead of now [INPUT-03, INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits. Not covered: nothing.
 #[cfg_attr(kani, kani::proof)]
@@ -135,7 +135,7 @@ pub fn verify_a_lead_is_checked() {
 }
 
 /// A grid is valid exactly when every number is within its domain and each bitmap has the bytes
-/// for its cells.
+/// for its cells [INPUT-03, INPUT-04, DOM-01, IMPL-05].
 ///
 /// Domain: all numbers of 64 bits, bitmaps of up to 3 bytes, one direction. Not covered: longer
 /// bitmaps, directions.

@@ -48,7 +48,7 @@ pub fn verify_brake_by_is_tau_after_the_cycle() {
 
 /// Settings are taken exactly when there is a period, `dt_max` is above it, no time is above 0 and below 1 ms nor `t_wait`
 /// above 0 and below 1 s, `max_age` is not below `l_max`, sessions are numbered from 0 and below 2^63 - 1, and a `stall`
-/// has a way that is finite and not negative and at least 1 s [MON-22, MON-24, MON-25, MON-26, MON-29, MON-60].
+/// has a way that is finite and not negative and at least 1 s [MON-22, MON-24, MON-25, MON-26, MON-29, MON-60, MON-62].
 ///
 /// Domain: the paper profile, times of the requester from 0, periods and stalls below 2^32 s, `max_age` and `step_max` of their
 /// domains, the other parameters of the stages by default. Not covered: parameters outside their domain, `tau` in the

@@ -12,7 +12,8 @@ use super::any::{below, duration_ns, near_integer, option, time_ns};
 #[cfg(not(kani))]
 use crate::kani;
 
-/// Nothing comes out of an unsafe cycle, nor of one that ended in an error [MON-01, MON-10].
+/// Nothing comes out of an unsafe cycle, nor of one that ended in an error [SCHED-18, FALL-03, FALL-11, MON-01,
+/// MON-10].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_nothing_comes_out_of_an_unsafe_cycle() {
     let cycle = cycle();
@@ -28,7 +29,8 @@ pub fn verify_nothing_comes_out_of_an_unsafe_cycle() {
 }
 
 /// From a safe cycle remote tracks come out exactly when MOT is remote, they are current, and stage i ran; a trajectory
-/// exactly when a group is remote and it is current. In `Local` nothing does [MON-01, MON-02, MON-04, MON-05].
+/// exactly when a group is remote and it is current. In `Local` nothing does [SCHED-18, MON-01, MON-02, MON-04,
+/// MON-05].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_what_comes_out_is_current_and_of_a_remote_group() {
     let cycle = cycle();

@@ -48,7 +48,7 @@ pub fn verify_the_monitor_stays_valid_at_verdicts() {
 }
 
 /// A confirmation keeps the monitor valid: a session that begins is counted from now, as one of which nothing was of
-/// use [MON-35].
+/// use [MON-31, MON-35].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_monitor_stays_valid_at_confirmations() {
     let (station, session) = (any_station(), near_integer(1, 6));
@@ -71,7 +71,7 @@ pub fn verify_the_monitor_stays_valid_at_confirmations() {
     kani::cover!(begins(1), "PLAN begins");
 }
 
-/// A rejection keeps the monitor valid and ends no session.
+/// A rejection keeps the monitor valid and ends no session [REQ-16].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_monitor_stays_valid_at_rejections() {
     let (station, session) = (any_station(), near_integer(1, 6));
@@ -136,7 +136,7 @@ pub fn verify_nobody_is_asked_before_half_a_second_was_seen() {
 }
 
 /// After an unsafe cycle, whatever made it so, every group is local and nothing came out; after a safe one no session
-/// has ended, and what came out names a session that runs [MON-01, MON-10, MON-11].
+/// has ended, and what came out names a session that runs [FALL-01, FALL-03, FALL-11, MON-01, MON-10, MON-11].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_requester_hears_what_came_out() {
     let (before, served) = any_valid_state();
@@ -161,7 +161,7 @@ pub fn verify_the_requester_hears_what_came_out() {
 }
 
 /// The wait after a session is nine times the time without use, one period at least, less the time of use; where nothing
-/// is left there is none [MON-34, MON-35, MON-36].
+/// is left there is none [MON-34, MON-35, MON-36, MON-38].
 ///
 /// Domain: all valid counts and times of 64 bits, a period from 1 ns. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]
@@ -183,7 +183,8 @@ pub fn verify_the_wait_is_nine_times_without_use() {
 }
 
 /// A cycle with something current counts as use, from the first such cycle; a group starves when none came for more than
-/// `dt_max`; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-37].
+/// `dt_max`; and where the clock was set back both times are lowered to the cycle's [MON-31, MON-33, MON-35, MON-36,
+/// MON-37, MON-63].
 ///
 /// Domain: all valid counts and times of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]

@@ -12,7 +12,9 @@ use crate::kani;
 /// Exactly the stages of the table are run, in their order, none after the first failure; every
 /// other one has the right reason; the gap is asked for exactly where stage iv does not run although
 /// nothing failed; and the cycle is unsafe exactly when a stage failed or, hardened, nothing
-/// compared a current trajectory with obstacles.
+/// compared a current trajectory with obstacles [SCHED-01, SCHED-02, SCHED-03, SCHED-04, SCHED-05, SCHED-06, SCHED-07,
+/// SCHED-08, SCHED-09, SCHED-10, SCHED-11, SCHED-15, SCHED-16, SCHED-17, H-02.1, H-02.2, H-02.3, H-04.3, H-05.1,
+/// H-05.2, H-10.1, H-14.53].
 ///
 /// Domain: all configurations, profiles, sets of inputs and answers of the stages. Not covered:
 /// whether the gap is compared, and H-14 decided, where the gap is asked for (H-04: hardened, not in
@@ -68,7 +70,7 @@ pub fn verify_order_is_the_table() {
     kani::cover!(failed == Some(Stage::Iii) && !ran[3], "nothing runs after a failure");
 }
 
-/// An input is current exactly when its stamp is not after now and at most `max_age` old.
+/// An input is current exactly when its stamp is not after now and at most `max_age` old [SCHED-12].
 ///
 /// Domain: all stamps and times of 64 bits, each `max_age` of the domain (0 to 60 s). Not covered: nothing.
 #[cfg_attr(kani, kani::proof)]

@@ -7,7 +7,7 @@ use super::any::{below, integer_within, near, time_ns};
 use crate::kani;
 
 /// Of a trajectory the points from the first on are examined, up to one that is not within the horizon; where plain doubles
-/// cannot tell of one before it, they count none.
+/// cannot tell of one before it, they count none [DIST-03, DIST-04].
 ///
 /// Domain: three points, any answers. Not covered: other numbers of points, the places behind them (H-04).
 #[cfg_attr(kani, kani::proof)]
@@ -27,7 +27,7 @@ pub fn verify_points_examined_are_a_prefix() {
 }
 
 /// A way counts in plain doubles as beyond the horizon only when it is, and as within only when it is not beyond; no NaN
-/// counts as beyond.
+/// counts as beyond [DIST-03].
 ///
 /// Domain: all ways from 0, all horizons, any numbers of 64 bits, NaN among them. Not covered: how much plain doubles err.
 #[cfg_attr(kani, kani::proof)]
@@ -43,7 +43,8 @@ pub fn verify_a_way_is_plainly_within_the_horizon() {
     kani::cover!(found == Some(true) && arc.is_nan(), "NaN");
 }
 
-/// H-07: a trajectory starts about now exactly when its first time is at most `max_age` from now, before or after it.
+/// H-07: a trajectory starts about now exactly when its first time is at most `max_age` from now, before or after it
+/// [H-07.1].
 ///
 /// Domain: all times of 64 bits, each `max_age` of the domain (0 to 60 s). Not covered: the place of the start.
 #[cfg_attr(kani, kani::proof)]
@@ -57,7 +58,7 @@ pub fn verify_a_trajectory_starts_about_now() {
     kani::cover!(!found && away_ns < 0, "ahead");
 }
 
-/// Stage i: the gated tracks are listed once each and in the order of the list.
+/// Stage i: the gated tracks are listed once each and in the order of the list [S1-03].
 ///
 /// Domain: three tracks, any answers, two rows. Not covered: other numbers of them, which tracks are gated.
 #[cfg_attr(kani, kani::proof)]

@@ -45,7 +45,7 @@ pub fn verify_s_cav_is_bounded() {
 }
 
 /// `s_follow` in plain doubles, of any two braking distances and `s_CAV`, is the positive part of the difference of the
-/// first two and the third, bit by bit: from `s_CAV` to 121.5 km, and `s_CAV` where the two are equal.
+/// first two and the third, bit by bit: from `s_CAV` to 121.5 km, and `s_CAV` where the two are equal [DIST-01].
 ///
 /// Domain: braking distances from 0 to 112.5 km, `s_CAV` from 0 to 9 km. Not covered: what these are.
 #[cfg_attr(kani, kani::proof)]
@@ -63,7 +63,7 @@ pub fn verify_s_follow_adds_to_s_cav() {
     kani::cover!(now < lead && found > 0.0, "a faster lead");
 }
 
-/// `s_follow` in plain doubles is that of `s_b(v_now)`, `s_b(v_lead)` and `s_CAV`, bit by bit.
+/// `s_follow` in plain doubles is that of `s_b(v_now)`, `s_b(v_lead)` and `s_CAV`, bit by bit [DIST-01].
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: how far it is from that of
 /// real numbers.
@@ -77,7 +77,7 @@ pub fn verify_s_follow_is_the_sum() {
 }
 
 /// `s_follow` in plain doubles is exactly `max(v_now^2 - v_lead^2, 0) / (2 a_b) + safety_time v_now` where doubles are
-/// exact.
+/// exact [DIST-01].
 ///
 /// Domain: whole speeds of `spec/4-arithmetic.md#domain` in m/s, `a_b` of 1/2, 1, 4 and 8 m/s^2, `safety_time` of 0, 1, 7 and 60 s.
 /// Not covered: other numbers, of which `verify_s_follow_is_the_sum` says what is computed.
@@ -98,7 +98,7 @@ pub fn verify_s_follow_is_exact_where_doubles_are() {
     kani::cover!(n < m && t > 0 && n > 0, "a faster lead");
 }
 
-/// `s_valid` in plain doubles is `s_follow` behind a lead and `s_b(v_now)` without one.
+/// `s_valid` in plain doubles is `s_follow` behind a lead and `s_b(v_now)` without one [DIST-01].
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered:
 /// nothing.
@@ -128,7 +128,7 @@ pub fn verify_the_way_until_tau_is_bounded() {
 }
 
 /// `s_stop` in plain doubles is the sum of the way until `tau` and of `s_b` of the speed then, bit by bit; so at most
-/// 1.9e8 m.
+/// 1.9e8 m [H-14.10].
 ///
 /// Domain: all speeds, `a_b`, `tau` and `a_max` of `spec/4-arithmetic.md#domain`. Not covered: how far the sum is from that
 /// of real numbers.

@@ -9,7 +9,7 @@ use super::any::{duration_ns, option, time_ns};
 #[cfg(not(kani))]
 use crate::kani;
 
-/// Latency is a violation beyond `l_max` and at no less, and always for data from the future.
+/// Latency is a violation beyond `l_max` and at no less, and always for data from the future [QOS-03, QOS-05, FALL-10].
 ///
 /// Domain: all times and limits of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]
@@ -31,7 +31,7 @@ pub fn verify_latency_is_exact() {
     kani::cover!(latency_ns > i128::from(i64::MAX), "a latency beyond 64 bits");
 }
 
-/// Silence is a violation beyond `dt_max` and at no less; time that runs backwards is none.
+/// Silence is a violation beyond `dt_max` and at no less; time that runs backwards is none [QOS-03, QOS-04, FALL-10].
 ///
 /// Domain: all states, times and limits of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]
@@ -46,7 +46,7 @@ pub fn verify_silence_is_exact() {
 }
 
 /// Every element is used, stale or violating as the text says, and nothing else changes: violating
-/// ones are no arrivals, stale ones are, and only a used one moves the order on.
+/// ones are no arrivals, stale ones are, and only a used one moves the order on [QOS-01, QOS-02, QOS-08].
 ///
 /// Domain: all states, times and limits of 64 bits. Not covered: nothing of this function.
 #[cfg_attr(kani, kani::proof)]

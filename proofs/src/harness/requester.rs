@@ -17,7 +17,7 @@ use super::states::{
 use crate::kani;
 
 /// The first state is valid: the base of the induction. All groups are in the area, nothing was
-/// dropped, and the table is empty.
+/// dropped, and the table is empty [REQ-17].
 ///
 /// Domain: both profiles, all times >= 0, any content of the table. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
@@ -38,7 +38,7 @@ pub fn verify_requester_starts_valid() {
     kani::cover!(!parameters.qos_hold, "a violation starts no hold");
 }
 
-/// A requester is refused exactly when one of its times is below 0.
+/// A requester is refused exactly when one of its times is below 0 [DOM-01].
 ///
 /// Domain: both profiles, all times of 64 bits, any content of the table. Not covered: which of several is named.
 #[cfg_attr(kani, kani::proof)]
@@ -60,7 +60,7 @@ pub fn verify_a_time_below_0_is_refused() {
 }
 
 /// A hold that is begun from outside makes `hold_until` the later of its old value and the time given; nothing else
-/// changes.
+/// changes [FALL-08, MON-38, MON-39].
 ///
 /// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
@@ -109,7 +109,8 @@ pub fn verify_a_station_below_1_is_refused() {
     kani::cover!(matches!(kind, EventKind::Data { .. }), "data");
 }
 
-/// A tick keeps every law of a step: see `keeps_every_law`.
+/// A tick keeps every law of a step: see `keeps_every_law` [REQ-03, FALL-06, FALL-07, FALL-08, FALL-09, FALL-10,
+/// FALL-13, PROTO-08, H-08.2, H-08.3].
 ///
 /// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
 /// anything.
@@ -122,7 +123,8 @@ pub fn verify_every_law_at_ticks() {
     kani::cover!(step.has_hold(), "a hold");
 }
 
-/// A withdrawal and a loss keep every law of a step: see `keeps_every_law`.
+/// A withdrawal and a loss keep every law of a step: see `keeps_every_law` [REQ-04, REQ-25, FALL-13, PROTO-08, H-08.2,
+/// H-08.3].
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
@@ -139,7 +141,7 @@ pub fn verify_every_law_at_withdrawals() {
     kani::cover!(!is_loss && is_known && step.starts(1), "a withdrawal");
 }
 
-/// An offer keeps every law of a step: see `keeps_every_law`.
+/// An offer keeps every law of a step: see `keeps_every_law` [REQ-02, REQ-04, PROTO-08, H-08.2, H-08.3].
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
@@ -153,7 +155,7 @@ pub fn verify_every_law_at_offers() {
     kani::cover!(step.starts(0) && place.station().is_some(), "local services start");
 }
 
-/// An offer leaves exactly what is in use of its station and no longer offered, with one release for each.
+/// An offer leaves exactly what is in use of its station and no longer offered, with one release for each [REQ-02].
 ///
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
@@ -181,7 +183,7 @@ fn is_unchanged(before: &Parts, after: &Parts) -> bool {
         && after.parameters == before.parameters
 }
 
-/// A cycle is told as safe exactly when it ended in a report without a failed stage; an error is unsafe.
+/// A cycle is told as safe exactly when it ended in a report without a failed stage; an error is unsafe [FALL-11].
 ///
 /// Domain: a failed stage or none, an error. Not covered: nothing: no other part of a report is read.
 #[cfg_attr(kani, kani::proof)]
@@ -205,7 +207,7 @@ pub fn verify_an_error_is_told_as_unsafe() {
 
 /// An offer replaces what its station offered and nothing else; a new station takes the first free
 /// place and was never asked. It is refused exactly when its station is in no place, no place is free,
-/// and it is not empty, and then nothing changes.
+/// and it is not empty, and then nothing changes [REQ-01, REQ-26].
 ///
 /// Domain: tables of two stations, all states, valid or not, all times of 64 bits. Not covered: larger tables; what
 /// becomes of groups in use, for which see `verify_every_law_at_offers`.
@@ -252,7 +254,8 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
 }
 
 /// Among two stations that offer a group the one is asked whose last request for it is older, never
-/// being the oldest; the smaller id of two never asked. After the last session nobody is.
+/// being the oldest; the smaller id of two never asked. After the last session nobody is [REQ-06, REQ-07, REQ-08,
+/// MON-61].
 ///
 /// Domain: tables of two different stations that both offer the group, each of the two groups, no hold or
 /// one that is over, both local and in the area, all sessions. Not covered: larger tables.

@@ -8,7 +8,8 @@ use crate::kani;
 
 /// Data of the running session: a violation (from the future, `l > l_max`, `dt > dt_max`), and nothing
 /// else, makes the group local; violating and stale elements are dropped; of a group that stays the
-/// times alone change: a stale element is an arrival, and a used one is the last one used, too.
+/// times alone change: a stale element is an arrival, and a used one is the last one used, too [QOS-01, QOS-02, QOS-03,
+/// QOS-05, QOS-06, QOS-07, QOS-08, FALL-10].
 ///
 /// Domain: all states with a remote group, valid or not, both groups, a table of one station, all times
 /// of 64 bits. Not covered: larger tables.

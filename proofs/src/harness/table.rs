@@ -11,7 +11,7 @@ use super::states::{any_record, any_state, any_station, withdrawal};
 use crate::kani;
 
 /// After a withdrawal or a loss the station offers nothing; when it was asked, and all that is remembered
-/// of the other station, stays.
+/// of the other station, stays [REQ-09, REQ-22, REQ-24].
 ///
 /// Domain: tables of two different stations, all states, valid or not, all times of 64 bits. Not covered:
 /// larger tables.
@@ -38,7 +38,7 @@ pub fn verify_a_withdrawal_forgets_the_offer_alone() {
 }
 
 /// The session of a request is remembered of the station asked, for the group asked for; nothing else
-/// in the table changes at a tick.
+/// in the table changes at a tick [REQ-07, REQ-08].
 ///
 /// Domain: tables of two different stations, all states, valid or not, all times of 64 bits. Not covered:
 /// larger tables; sessions numbered 0, which stands for none.
@@ -80,7 +80,7 @@ pub fn verify_the_table_stays_valid_at_ticks() {
     kani::cover!(each(|at| step.done[REQUESTS][at].is_some()), "both asked for");
 }
 
-/// What is in use after a tick is offered by its station, which was asked for it last in this session.
+/// What is in use after a tick is offered by its station, which was asked for it last in this session [REQ-03].
 ///
 /// Domain: valid tables of two places, all states in which this holds of the group, each of the two groups,
 /// all times of 64 bits. Not covered: larger tables.
@@ -104,7 +104,7 @@ fn stays_offered_at_ticks(at: usize) {
 }
 
 /// After an offer, a withdrawal or a loss the table is valid, and what is in use is offered
-/// by its station, which was asked for it last in this session.
+/// by its station, which was asked for it last in this session [REQ-02, REQ-23, REQ-24].
 ///
 /// Domain: valid tables of two places, all states in which what is in use is offered and asked for, all
 /// times of 64 bits. Not covered: larger tables; offers that are refused, for which see `requester`.

@@ -10,7 +10,7 @@ use crate::kani;
 
 /// At a tick before `hold_until`, as it is after the tick, nothing is asked for, whoever offers, and no
 /// session is numbered: a hold that begins with a violation of this tick bars its requests. The hold
-/// changes by a violation with `qos_hold` alone.
+/// changes by a violation with `qos_hold` alone [REQ-03, FALL-05, FALL-06, FALL-07, FALL-08, FALL-09, FALL-12].
 ///
 /// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not
 /// covered: larger tables.
@@ -36,7 +36,7 @@ fn is_held(step: &Seen) -> bool {
 /// Who is asked offers the group, which was local and is in the area; the session is the next
 /// number, MOT's before PLAN's; the deadline is now + `request_timeout`. A group is asked for whenever it
 /// was local and is in the area, a station offers it, nothing is held and a number is left; one that is
-/// not asked for is not in use anew.
+/// not asked for is not in use anew [REQ-03, REQ-04, REQ-05, REQ-06, FALL-05, FALL-09, FALL-13, H-08.3, MON-61].
 ///
 /// Domain: all states, valid or not, of a table of two stations, all times of 64 bits, both groups.
 /// Not covered: larger tables.
@@ -88,7 +88,7 @@ fn asks_who_offers(step: &Seen, at: usize, [one, other]: &[StationRecord; 2]) ->
 }
 
 /// A tick at which stations offer groups leaves exactly the groups that are overdue or silent, with one
-/// release of the session; what stays is as it was; area, times and counts stay.
+/// release of the session; what stays is as it was; area, times and counts stay [REQ-14, QOS-04, QOS-06, FALL-10].
 ///
 /// Domain: all states, valid or not, of a table of two stations, all times of 64 bits, each of the two
 /// groups. Not covered: larger tables.
