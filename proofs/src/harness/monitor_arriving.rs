@@ -17,7 +17,7 @@ use crate::kani;
 
 /// A message is accepted exactly when it is of the running session, generated within `l_max`, stamped at most `max_age`
 /// ago, newer than the last one used, not after silence, of a group that does not starve, and no longer than the memory
-/// [REQ-20, QOS-07, QOS-08, MON-07, MON-20, MON-30, MON-32].
+/// [REQ-20, QOS-07, QOS-08, MON-20, MON-30, MON-32].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_message_is_accepted_exactly_when_it_is_of_use() {
     let it = Arrived::any();

@@ -256,7 +256,7 @@ impl Step {
     }
 
     /// It stays valid; the count of a session that goes on stays; `hold_until` never falls, and after one that
-    /// ends it is the end of its wait or later, and no request was sent before.
+    /// ends it is the end of its wait or later. That no request is sent before is `ticks::verify_t_wait_bars_requests`.
     fn keeps_the_monitor(&self) {
         assert!(is_valid(&self.after, self.served));
         let (old, new) = (self.before.hold_until_ns, self.after.hold_until_ns);

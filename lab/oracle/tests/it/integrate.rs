@@ -173,7 +173,10 @@ fn milliseconds_for_nanoseconds_and_another_clock_are_noticed() {
 #[test]
 fn settings_actions_answers_advice_and_sessions_are_looked_at() {
     for tau in [0.05, 0.2] {
-        breaks(Duty::Tau, 0, |it| it[0]["made"]["record"]["parameters"]["tau"] = json!(tau));
+        breaks(Duty::Tau, 0, |it| {
+            it[0]["made"]["meant"] = json!(0);
+            it[0]["made"]["record"]["parameters"]["tau"] = json!(tau);
+        });
     }
     breaks(Duty::CheckTime, 0, |it| {
         it[0]["made"]["step_ps"] = json!(750);
