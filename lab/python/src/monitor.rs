@@ -14,7 +14,7 @@ use mufasa_props::bridge;
 use mufasa_records::{names, record};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use serde_json::{Map, Value};
+use serde_json::Map;
 
 use crate::actions::{Actions, ToDo};
 use crate::arguments::{
@@ -84,10 +84,8 @@ impl Monitor {
         if let Some(parameters) = parameters {
             let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
             let json = json.map_err(|error| in_domain(parameters, "parameters", error))?;
-            let mut object: Map<String, Value> =
-                serde_json::from_str(&json.extract::<String>()?)
-                    .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
-            // That of a record is too short for a vehicle.
+            let mut object: Map<_, _> = serde_json::from_str(&json.extract::<String>()?)
+                .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
             object.entry("tau").or_insert_with(|| settings.stages.tau.into());
             let (stages, requester) =
                 record::parameters::settings(object).map_err(|it| invalid(named(it)))?;

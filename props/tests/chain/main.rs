@@ -70,7 +70,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("spec/6-link.md", Cell::Vector, "`lab/link/tests/codec/messages.hex` has bytes of every kind"),
     ("spec/6-link.md", Cell::Bench, "nothing of it is computed in a cycle"),
     ("spec/3-stages.md#stage-ii-trajectory-to-map", Cell::Proof, TESTED),
-    ("spec/4-arithmetic.md#conformance-of-an-implementation", Cell::Proof, TESTED),
     ("theta_map", Cell::Proof, TESTED),
     ("miss_budget", Cell::Proof, TESTED),
     ("theta_obj", Cell::Proof, TESTED),
