@@ -41,7 +41,6 @@ use crate::explore;
 use crate::integrate;
 use crate::parameters_file;
 use crate::prove;
-use crate::slow;
 use crate::verify;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
@@ -90,8 +89,6 @@ enum Command {
     Prove(prove::Settings),
     /// Run what shows that this checkout is right, as far as its tools are here, and leave the evidence.
     Verify(verify::Settings),
-    /// Search for cycles that take many instructions.
-    Slow(slow::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     #[cfg(feature = "link")]
     Evaluate(EvaluateArguments),
@@ -163,7 +160,6 @@ pub fn main() -> ExitCode {
         Command::Verify(settings) => {
             interrupts().and_then(|stop| verify::here(&settings, &stop, &mut out))
         }
-        Command::Slow(settings) => slow::run(&settings, &mut out),
         #[cfg(feature = "link")]
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         #[cfg(feature = "link")]

@@ -39,11 +39,6 @@ impl Judged {
     pub fn unsafe_report(&self) -> Option<&Report> {
         self.model.as_ref().ok().filter(|report| report.failed_stage.is_some())
     }
-
-    /// Whether this is a safe cycle to the model; an error is none (`spec/2-offloading.md#fallback`).
-    pub fn is_safe(&self) -> bool {
-        self.model.as_ref().is_ok_and(|report| report.failed_stage.is_none())
-    }
 }
 
 /// Whether an answer is the verdict safe; an error is not (`spec/2-offloading.md#fallback`).
