@@ -16,7 +16,7 @@ use crate::limits::{configuration, number, profile, whole};
 Exit codes: 0 all cycles safe, 1 some unsafe or offloading lost (data too late, silence), 2 bad
 input (the other files are still checked), 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
-    /// CommonRoad scenarios (each followed by its solutions, if any), cycles as JSON Lines or in MCAP logs, maps
+    /// CommonRoad scenarios (each followed by its solutions, if any), cycles as JSON Lines, maps
     /// as .npy; recognised by their content, each also as .gz or from a pipe; - is standard input.
     #[arg(required = true)]
     pub(super) files: Vec<PathBuf>,
