@@ -264,7 +264,7 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
 fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
-    let ComposeArguments { file, dot, svg, .. } = arguments;
+    let ComposeArguments { file, dot, .. } = arguments;
     let Some(file) = file else {
         write!(out, "{}", compose::EXAMPLE)?;
         return Ok(0);
@@ -273,9 +273,6 @@ fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
     let composed =
         compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;
     write!(out, "{}", if *dot { composed.dot() } else { composed.table() })?;
-    if let Some(picture) = svg {
-        files::write(picture, &composed.svg()).map_err(cannot(picture, "written"))?;
-    }
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 

@@ -125,14 +125,11 @@ pub(super) struct ComposeArguments {
     #[arg(required_unless_present = "example")]
     pub(super) file: Option<PathBuf>,
     /// Print a record to begin with, that of the paper's Fig. 2, and end.
-    #[arg(long, conflicts_with_all = ["file", "dot", "svg"])]
+    #[arg(long, conflicts_with_all = ["file", "dot"])]
     pub(super) example: bool,
     /// Write the graph in the language of Graphviz.
-    #[arg(long, conflicts_with = "svg")]
+    #[arg(long)]
     pub(super) dot: bool,
-    /// Draw the graph into this file.
-    #[arg(long, value_name = "FILE")]
-    pub(super) svg: Option<PathBuf>,
 }
 
 #[derive(Args)]
