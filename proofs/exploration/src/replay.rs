@@ -160,12 +160,8 @@ impl<'a> Replay<'a> {
 
     /// Makes a move.
     pub fn go(&mut self, by: Move) -> Result<Episode, ReplayError> {
-        let mut episode = Episode {
-            t_ns: self.now_ns,
-            what: What::Time,
-            actions: Vec::new(),
-            cavs: Vec::new(),
-        };
+        let mut episode =
+            Episode { t_ns: self.now_ns, what: What::Time, actions: Vec::new(), cavs: Vec::new() };
         let impossible = || ReplayError::Impossible(by);
         match by {
             Move::TimePasses => {
