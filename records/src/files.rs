@@ -42,21 +42,16 @@ fn beside(file: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Writes a file of text at once.
-pub fn write(file: &Path, content: &str) -> io::Result<()> {
-    write_bytes(file, content.as_bytes())
-}
-
-/// Writes a file at once. What a link points to is written in its place, and what is no file, such as a device or a
+/// Writes a file of text at once. What a link points to is written in its place, and what is no file, such as a device or a
 /// pipe, is written to: neither is replaced.
-pub fn write_bytes(file: &Path, content: &[u8]) -> io::Result<()> {
+pub fn write(file: &Path, content: &str) -> io::Result<()> {
     match fs::symlink_metadata(file) {
         Ok(there) if there.is_symlink() => {
             let target = fs::canonicalize(file)?;
-            return write_bytes(&target, content);
+            return write(&target, content);
         }
         Ok(there) if !there.is_file() && !there.is_dir() => {
-            return fs::OpenOptions::new().write(true).open(file)?.write_all(content);
+            return fs::OpenOptions::new().write(true).open(file)?.write_all(content.as_bytes());
         }
         Ok(_) | Err(_) => {}
     }

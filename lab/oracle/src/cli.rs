@@ -41,7 +41,6 @@ use crate::explore;
 use crate::integrate;
 use crate::parameters_file;
 use crate::prove;
-use crate::slow;
 use crate::verify;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
@@ -90,8 +89,6 @@ enum Command {
     Prove(prove::Settings),
     /// Run what shows that this checkout is right, as far as its tools are here, and leave the evidence.
     Verify(verify::Settings),
-    /// Search for cycles that take many instructions.
-    Slow(slow::Settings),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     #[cfg(feature = "link")]
     Evaluate(EvaluateArguments),
@@ -163,7 +160,6 @@ pub fn main() -> ExitCode {
         Command::Verify(settings) => {
             interrupts().and_then(|stop| verify::here(&settings, &stop, &mut out))
         }
-        Command::Slow(settings) => slow::run(&settings, &mut out),
         #[cfg(feature = "link")]
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         #[cfg(feature = "link")]
@@ -268,7 +264,7 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
 fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
-    let ComposeArguments { file, dot, svg, .. } = arguments;
+    let ComposeArguments { file, dot, .. } = arguments;
     let Some(file) = file else {
         write!(out, "{}", compose::EXAMPLE)?;
         return Ok(0);
@@ -277,9 +273,6 @@ fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
     let composed =
         compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;
     write!(out, "{}", if *dot { composed.dot() } else { composed.table() })?;
-    if let Some(picture) = svg {
-        files::write(picture, &composed.svg()).map_err(cannot(picture, "written"))?;
-    }
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 

@@ -4,7 +4,6 @@
 pub mod graph;
 
 mod dot;
-mod svg;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -126,11 +125,6 @@ impl Composed {
     /// The graph in the language of Graphviz, the goal at the top.
     pub fn dot(&self) -> String {
         dot::draw(&self.graph())
-    }
-
-    /// The graph as a picture, the goal at the top.
-    pub fn svg(&self) -> String {
-        svg::draw(&self.graph(), &self.summary())
     }
 
     fn summary(&self) -> String {

@@ -2,7 +2,6 @@
 
 pub mod arguments;
 mod falsify;
-mod log;
 mod maps;
 pub mod margins;
 pub mod merge;

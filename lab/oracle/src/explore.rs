@@ -1,7 +1,6 @@
-//! The offloading protocol explored state by state, with tables, vectors and charts of what was
-//! found (`spec/2-offloading.md#properties-of-the-whole-protocol`).
+//! The offloading protocol explored state by state, with tables, and vectors of what was found
+//! (`spec/2-offloading.md#properties-of-the-whole-protocol`).
 
-pub mod chart;
 pub mod evidence;
 pub mod findings;
 pub mod monitor;
@@ -53,7 +52,7 @@ pub struct Settings {
     /// Put the tables into a document, between the lines that mark their place.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
     pub into: Option<PathBuf>,
-    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails [default: exploration].
+    /// Folder for the tables as JSON and Markdown, and the vectors of what fails [default: exploration].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -83,7 +82,7 @@ impl End {
     }
 }
 
-/// Explores, writes tables to `out`, and into the folder vectors and charts of what fails, `exploration.json` and
+/// Explores, writes tables to `out`, and into the folder vectors of what fails, `exploration.json` and
 /// `exploration.md`. Errors: those of writing to `out`, and what makes exploring of no use.
 pub fn run(settings: &Settings, folder: &Path, out: &mut impl Write) -> Result<End, Stopped> {
     let worlds = worlds(settings.bounds, settings.world.as_deref())?;
@@ -234,6 +233,6 @@ fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome]) -> End {
 }
 
 /// Profile and world.
-pub fn title(world: &World, profile: Profile) -> String {
+fn title(world: &World, profile: Profile) -> String {
     format!("{} {}", names::profile(profile), world.name)
 }

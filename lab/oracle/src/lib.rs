@@ -16,6 +16,5 @@ pub mod parameters_file;
 pub mod prove;
 mod rows;
 pub mod schemas;
-pub mod slow;
 mod spelling;
 pub mod verify;

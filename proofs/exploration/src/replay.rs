@@ -56,10 +56,6 @@ pub struct Episode {
     pub what: What,
     /// What the CAV did, if it was one.
     pub actions: Vec<Action>,
-    /// Messages sent.
-    pub sent: Vec<Post>,
-    /// Messages sent for which the network had no place.
-    pub lost: Vec<Post>,
     /// The CAVs afterwards.
     pub cavs: Vec<Look>,
 }
@@ -164,14 +160,8 @@ impl<'a> Replay<'a> {
 
     /// Makes a move.
     pub fn go(&mut self, by: Move) -> Result<Episode, ReplayError> {
-        let mut episode = Episode {
-            t_ns: self.now_ns,
-            what: What::Time,
-            actions: Vec::new(),
-            sent: Vec::new(),
-            lost: Vec::new(),
-            cavs: Vec::new(),
-        };
+        let mut episode =
+            Episode { t_ns: self.now_ns, what: What::Time, actions: Vec::new(), cavs: Vec::new() };
         let impossible = || ReplayError::Impossible(by);
         match by {
             Move::TimePasses => {
@@ -195,7 +185,7 @@ impl<'a> Replay<'a> {
             Move::Refuse { message } => {
                 let post = self.take(message, false).ok_or_else(impossible)?;
                 episode.what = What::AtStation(post);
-                self.send(Post { kind: Kind::Reject, ..post }, &mut episode);
+                self.send(Post { kind: Kind::Reject, ..post });
             }
             Move::Lose { message } => {
                 episode.what = What::Lost(self.take(message, false).ok_or_else(impossible)?);
@@ -213,7 +203,7 @@ impl<'a> Replay<'a> {
                     return Err(impossible());
                 };
                 episode.what = What::Alive { cav };
-                self.send(Post { kind: Kind::Alive, station, cav, group, session }, &mut episode);
+                self.send(Post { kind: Kind::Alive, station, cav, group, session });
             }
         }
         episode.cavs = self.cavs.iter().map(look).collect();
@@ -281,18 +271,18 @@ impl<'a> Replay<'a> {
         for action in episode.actions.clone() {
             match action {
                 Action::Request { station, group, session } => {
-                    self.send(Post { kind: Kind::Request, station, cav, group, session }, episode);
+                    self.send(Post { kind: Kind::Request, station, cav, group, session });
                 }
                 // As in the exploration, a number that the station was never told is not kept.
                 Action::Release { station, group, session }
                     if known(&before, group, station, session) =>
                 {
-                    self.send(Post { kind: Kind::Release, station, cav, group, session }, episode);
+                    self.send(Post { kind: Kind::Release, station, cav, group, session });
                 }
-                Action::Release { station, group, session } => {
-                    episode.lost.push(Post { kind: Kind::Release, station, cav, group, session });
-                }
-                Action::Activate(_) | Action::Deactivate(_) | Action::Drop(_) => {}
+                Action::Release { .. }
+                | Action::Activate(_)
+                | Action::Deactivate(_)
+                | Action::Drop(_) => {}
             }
         }
         Ok(())
@@ -315,18 +305,14 @@ impl<'a> Replay<'a> {
             Some(Reply::Confirm { .. }) => Kind::Confirm,
             Some(Reply::Reject { .. }) => Kind::Reject,
         };
-        self.send(Post { kind, ..post }, episode);
+        self.send(Post { kind, ..post });
         Ok(())
     }
 
-    fn send(&mut self, post: Post, episode: &mut Episode) {
-        if self.flight.contains(&post) {
-            episode.sent.push(post);
-        } else if self.flight.len() < self.system.world().in_flight {
+    /// It is lost where the network has no place for it.
+    fn send(&mut self, post: Post) {
+        if !self.flight.contains(&post) && self.flight.len() < self.system.world().in_flight {
             self.flight.push(post);
-            episode.sent.push(post);
-        } else {
-            episode.lost.push(post);
         }
     }
 

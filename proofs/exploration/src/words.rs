@@ -81,7 +81,7 @@ impl System {
     }
 
     /// How the CAV is called.
-    pub fn cav_name(&self, cav: usize) -> String {
+    fn cav_name(&self, cav: usize) -> String {
         if self.world().requesters == 1 { String::from("CAV") } else { format!("CAV {}", cav + 1) }
     }
 
@@ -100,7 +100,7 @@ impl System {
 }
 
 /// The name of a group.
-pub fn name(group: Group) -> &'static str {
+fn name(group: Group) -> &'static str {
     match group {
         Group::Mot => "MOT",
         Group::Plan => "PLAN",
@@ -108,7 +108,7 @@ pub fn name(group: Group) -> &'static str {
 }
 
 /// What a message says.
-pub fn kind(kind: Kind) -> &'static str {
+fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Request => "request",
         Kind::Release => "release",

@@ -6,7 +6,7 @@ use std::process::Command;
 use super::tree::Tree;
 
 /// Of each page with stamps the sources that its tables depend on.
-const SOURCES: [(&str, &str); 8] = [
+const SOURCES: [(&str, &str); 7] = [
     ("docs/configuration.md", "impl/src benches/src"),
     ("docs/conformance.md", "model/src lab/conform/src examples/conformance vectors"),
     ("docs/coverage.md", "impl capi model/src props records/src vectors"),
@@ -14,7 +14,6 @@ const SOURCES: [(&str, &str); 8] = [
     ("docs/embedded.md", "impl/src capi/src benches/src"),
     ("docs/link.md", "impl/src lab/link/src"),
     ("docs/speed.md", "impl/src benches/src"),
-    ("examples/conformance/README.md", "model/src lab/conform/src examples/conformance vectors"),
 ];
 
 /// Page and line of each stamp, its commit, and whether the sources were changed then.

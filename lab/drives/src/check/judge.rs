@@ -39,15 +39,10 @@ impl Judged {
     pub fn unsafe_report(&self) -> Option<&Report> {
         self.model.as_ref().ok().filter(|report| report.failed_stage.is_some())
     }
-
-    /// Whether this is a safe cycle to the model.
-    pub fn is_safe(&self) -> bool {
-        is_safe(&self.model)
-    }
 }
 
 /// Whether an answer is the verdict safe; an error is not (`spec/2-offloading.md#fallback`).
-pub fn is_safe(answer: &Answer) -> bool {
+pub(crate) fn is_safe(answer: &Answer) -> bool {
     answer.as_ref().is_ok_and(|report| report.failed_stage.is_none())
 }
 
@@ -70,7 +65,7 @@ const AT_ONCE: usize = 64;
 
 /// Runs `job` for every index below `count` on all processors, so many at once, and hands the results to `take` in
 /// their order. The first error of `take` ends the work.
-pub fn in_order<T: Send, E>(
+pub(crate) fn in_order<T: Send, E>(
     count: usize,
     job: impl Fn(usize) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::source::Unpacked;
 use crate::readers::xml::Document;
-use crate::readers::{formats, mcap, npy};
+use crate::readers::{formats, npy};
 
 /// A file by what it holds.
 pub(crate) enum Content {
@@ -25,9 +25,6 @@ impl Content {
         let bytes = file.bytes().map_err(|error| ReadError::file(path, error.to_string()))?;
         if bytes.starts_with(npy::MAGIC) {
             return Ok(Self::Map(bytes));
-        }
-        if bytes.starts_with(mcap::MAGIC) {
-            return Ok(Self::Lines(Box::new(Cursor::new(mcap::lines(path, &bytes)?))));
         }
         if let Some(message) = formats::foreign(&bytes) {
             return Err(ReadError::file(path, message));

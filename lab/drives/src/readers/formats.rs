@@ -22,8 +22,8 @@ const KNOWN: [(&[u8], &str); 7] = [
     (b"\xfe\xff", UTF_16),
 ];
 /// What `check` reads, for a file that is nothing known.
-pub(crate) const READ: &str = "CommonRoad XML, cycles as JSON Lines or in MCAP logs and maps as .npy \
-                               are read, each also as .gz";
+pub(crate) const READ: &str =
+    "CommonRoad XML, cycles as JSON Lines and maps as .npy are read, each also as .gz";
 
 /// Whether a file is called as one of JSON Lines is, packed or not, so that its first line may be a broken one.
 pub(crate) fn is_named_lines(path: &Path) -> bool {

@@ -10,7 +10,6 @@ mod lanes;
 mod left_out;
 mod lines;
 mod map;
-pub mod mcap;
 pub mod npy;
 mod order;
 pub mod route;
@@ -37,8 +36,8 @@ use scenario::Scenario;
 use source::Source;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
-/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines or in an MCAP
-/// log (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, and may be a
+/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON
+/// Lines (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, and may be a
 /// pipe; what is packed, and all but lines, is read up to 1 GiB. Cycles are read line by line and kept in a
 /// temporary file.
 ///

@@ -1,5 +1,5 @@
 //! The bytes of a message of every kind, which do not change: what is on the road understands them.
-//! `scripts/link-asn1` reads them with another implementation of ASN.1, and `scripts/link-etsi` the CAM and CPMs inside.
+//! Another implementation of ASN.1 has read them (`docs/link-messages.md`).
 
 use std::fmt::Write as _;
 

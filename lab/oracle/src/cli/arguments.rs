@@ -16,7 +16,7 @@ use crate::limits::{configuration, number, profile, whole};
 Exit codes: 0 all cycles safe, 1 some unsafe or offloading lost (data too late, silence), 2 bad
 input (the other files are still checked), 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
-    /// CommonRoad scenarios (each followed by its solutions, if any), cycles as JSON Lines or in MCAP logs, maps
+    /// CommonRoad scenarios (each followed by its solutions, if any), cycles as JSON Lines, maps
     /// as .npy; recognised by their content, each also as .gz or from a pipe; - is standard input.
     #[arg(required = true)]
     pub(super) files: Vec<PathBuf>,
@@ -125,14 +125,11 @@ pub(super) struct ComposeArguments {
     #[arg(required_unless_present = "example")]
     pub(super) file: Option<PathBuf>,
     /// Print a record to begin with, that of the paper's Fig. 2, and end.
-    #[arg(long, conflicts_with_all = ["file", "dot", "svg"])]
+    #[arg(long, conflicts_with_all = ["file", "dot"])]
     pub(super) example: bool,
     /// Write the graph in the language of Graphviz.
-    #[arg(long, conflicts_with = "svg")]
+    #[arg(long)]
     pub(super) dot: bool,
-    /// Draw the graph into this file.
-    #[arg(long, value_name = "FILE")]
-    pub(super) svg: Option<PathBuf>,
 }
 
 #[derive(Args)]

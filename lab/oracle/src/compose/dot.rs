@@ -1,7 +1,10 @@
 //! The graph in the language of Graphviz.
 
 use super::graph::Graph;
-use super::svg::colour;
+
+/// Colour of the CAV, then of the other stations in turn; the first two are those of the paper's Fig. 2.
+const COLOURS: [&str; 7] =
+    ["#67acd4", "#ea7f81", "#8dbf7a", "#e5b567", "#a98fc9", "#6fbfb0", "#c9a58f"];
 
 /// The goal at the top, arrows from provider to consumer, device switches dashed.
 pub fn draw(graph: &Graph) -> String {
@@ -24,6 +27,17 @@ pub fn draw(graph: &Graph) -> String {
     }
     lines.push(String::from("}\n"));
     lines.join("\n")
+}
+
+/// Fill colour of a station.
+fn colour(station: i64) -> &'static str {
+    let others = COLOURS.len() - 1;
+    match usize::try_from(station) {
+        Ok(0) => COLOURS[0],
+        Ok(station) => COLOURS[1 + (station - 1) % others],
+        // No service set holds a negative station.
+        Err(_) => "#ffffff",
+    }
 }
 
 fn quoted(text: &str) -> String {

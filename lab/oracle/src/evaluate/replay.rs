@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use mufasa::input::profile::Profile;
 use mufasa_records::files;
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
@@ -21,7 +20,6 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
-use super::log::Log;
 use super::maps;
 use crate::ended::{Ended, cannot, complain, said};
 use crate::limits::whole;
@@ -32,7 +30,7 @@ const VEHICLES: usize = 15;
 /// Which run, and where its page goes.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit codes: 0 page and log are written, however the run ended; 2 bad input or a file cannot be written.")]
+Exit codes: 0 the page is written, however the run ended; 2 bad input or a file cannot be written.")]
 pub struct ReplayArguments {
     /// A collision that `mufasa evaluate falsify` found; it says which run it is.
     #[arg(value_name = "FILE", conflicts_with_all = ["run", "attack", "variant", "route", "scenario", "vehicles", "from"])]
@@ -74,9 +72,6 @@ pub struct ReplayArguments {
     /// The page; by default its name says which run it is.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write the run as an MCAP log, too, which Foxglove shows; `mufasa check FILE` reads its cycles.
-    #[arg(long, value_name = "FILE")]
-    pub mcap: Option<PathBuf>,
     /// Write the calls of the CAV's monitor, too, as a log for `mufasa integrate`.
     #[arg(long, value_name = "FILE")]
     pub calls: Option<PathBuf>,
@@ -85,7 +80,7 @@ pub struct ReplayArguments {
 /// The runs of an experiment by its name and its size, which is made of its defaults; none, if there is no such one.
 pub(super) type Jobs = fn(&str, &dyn Fn(Options) -> Options, &Town) -> Vec<Job>;
 
-/// Makes the run and writes its page, and its log. Returns the exit code.
+/// Makes the run and writes its page, and its calls. Returns the exit code.
 pub fn run(arguments: &ReplayArguments, jobs: Jobs, out: &mut impl Write) -> Ended {
     let (town, job) = job(arguments, jobs)?;
     let (name, outcome, files) = write(arguments, &town, &job)?;
@@ -171,38 +166,24 @@ fn write(
     job: &Job,
 ) -> Result<(String, Outcome, Vec<PathBuf>), String> {
     let name = job.id.clone();
-    let named = [None, Some(Profile::PAPER), Some(Profile::HARDENED)];
-    if arguments.mcap.is_some() && !named.contains(&job.settings.profile) {
-        return Err("a set of rules of a study has no record: leave out --mcap".to_owned());
-    }
     let file = arguments.out.clone();
     let file = file.unwrap_or_else(|| {
         let usual = format!("{}.html", name.replace('/', "-"));
         complain(&format!("writes into {usual}; --out names another file"));
         PathBuf::from(usual)
     });
-    for file in
-        [Some(&file), arguments.mcap.as_ref(), arguments.calls.as_ref()].into_iter().flatten()
-    {
+    for file in [Some(&file), arguments.calls.as_ref()].into_iter().flatten() {
         files::prepare_file(file).map_err(cannot(file, "written"))?;
     }
-    let mut both = Both { replay: Replay::default(), log: None, calls: String::new() };
+    let mut both = Both { replay: Replay::default(), calls: String::new() };
     let mut job = job.clone();
     if arguments.calls.is_some() {
         (job.settings.recorded, job.settings.logged) = (Share::ALL, true);
-    }
-    if arguments.mcap.is_some() {
-        job.settings.recorded = Share::ALL;
-        both.log = Some(Log::new(&name)?);
     }
     let outcome = job.run(town, &mut both).map_err(said)?;
     let page = both.replay.page(town, &name, job.route, &outcome);
     files::write(&file, &page).map_err(cannot(&file, "written"))?;
     let mut written = vec![file];
-    if let (Some(file), Some(log)) = (&arguments.mcap, both.log) {
-        files::write_bytes(file, &log.finish()?).map_err(cannot(file, "written"))?;
-        written.push(file.clone());
-    }
     if let Some(file) = &arguments.calls {
         files::write(file, &both.calls).map_err(cannot(file, "written"))?;
         written.push(file.clone());
@@ -213,16 +194,12 @@ fn write(
 /// What is made of a run.
 struct Both {
     replay: Replay,
-    log: Option<Log>,
     calls: String,
 }
 
 impl Watcher for Both {
     fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle) {
         self.replay.cycle(truth, cav, decided, cycle);
-        if let Some(log) = &mut self.log {
-            log.cycle(truth, cav, decided, cycle);
-        }
     }
 
     fn ended(&mut self, truth: &Snapshot, cav: &Cav<'_>) {

@@ -1,4 +1,4 @@
-//! What was found, kept as vectors and charts.
+//! What was found, kept as vectors.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use mufasa_exploration::run::{Counterexample, WorldOutcome};
 use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 
-use super::{chart, title, vector};
+use super::vector;
 use mufasa_conform::vectors::flag;
 use mufasa_records::files;
 use mufasa_records::{Trace, names};
@@ -56,17 +56,14 @@ fn story(
     Some(episodes.map(|episodes| Story { name, property, system, episodes }))
 }
 
-/// Writes a vector and a chart of every story. Errors name the file.
+/// Writes the vectors of every story. Errors name the file.
 pub fn write(folder: &Path, stories: &[Story<'_>]) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
     let mut written = Vec::new();
     for story in stories {
-        let name = files::name(&story.name);
-        for (ending, content) in [("jsonl", story.vectors()), ("md", Ok(story.chart()))] {
-            let file = folder.join(format!("{name}.{ending}"));
-            let write = content.and_then(|content| files::write(&file, &content));
-            write.map_err(|error| (file.clone(), error))?;
-            written.push(file);
-        }
+        let file = folder.join(format!("{}.jsonl", files::name(&story.name)));
+        let write = story.vectors().and_then(|content| files::write(&file, &content));
+        write.map_err(|error| (file.clone(), error))?;
+        written.push(file);
     }
     Ok(written)
 }
@@ -88,13 +85,6 @@ impl Story<'_> {
             lines.extend([vector.to_string().as_str(), "\n"]);
         }
         Ok(lines)
-    }
-
-    /// The message sequence chart.
-    pub fn chart(&self) -> String {
-        let title =
-            format!("{} ({})", self.name, title(self.system.world(), self.system.profile()));
-        chart::draw(self.system, &title, self.note(self.system.profile()), &self.episodes)
     }
 
     fn requirement(&self) -> &'static str {

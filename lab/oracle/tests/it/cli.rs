@@ -139,10 +139,9 @@ fn the_oracle_answers_standard_input() {
 fn compositions_are_found_and_drawn() {
     let folder = folder("compose");
     let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/fig2.json");
-    said(&folder, &["compose", services, "--svg", "fig2.svg"]).has(0, "8 compositions", "");
+    said(&folder, &["compose", services]).has(0, "8 compositions", "");
     let example = write(&folder, "example.json", mufasa(&["compose", "--example"]).out);
     said(&folder, &["compose", &example]).has(0, "8 compositions", "");
-    assert!(Document::parse(&fs::read_to_string(folder.join("fig2.svg")).expect("drawn")).is_ok());
     assert!(mufasa(&["compose", services, "--dot"]).out.starts_with("digraph"));
 }
 

@@ -18,7 +18,6 @@ mod prove;
 mod report;
 mod schemas;
 mod shards;
-mod slow;
 mod speed;
 mod ulm;
 mod verify;

@@ -1,12 +1,10 @@
-//! What `mufasa evaluate` leaves for people: the report, replays and logs.
+//! What `mufasa evaluate` leaves for people: the report and replays.
 
 use std::fs;
 use std::path::Path;
 
 use crate::kit::{folder, said};
-use mcap::{MessageStream, Schema};
 use roxmltree::Document;
-use serde_json::Value;
 
 fn done(folder: &Path, code: i32, arguments: &[&str]) -> String {
     let told = said(folder, arguments);
@@ -88,57 +86,6 @@ fn all_cycles_are_checked_where_that_is_asked_for() {
     let [decided, checked] = ask(&[]);
     assert!((decided / 100 - 2..=decided / 100 + 2).contains(&checked), "{decided} {checked}");
     assert_eq!(ask(&["--check-all"]), [decided, decided]);
-}
-
-/// `check` reads the cycles of a log as it reads them as lines, and answers the same.
-#[test]
-fn a_run_as_a_log_is_read_back() {
-    let folder = folder("log");
-    let replay =
-        ["evaluate", "replay", "--attack", "wrong-map", "--variant", "hardened", "--scenario", "0"];
-    done(&folder, 0, &[&replay[..], &["--out", "run.html", "--mcap", "run.mcap"]].concat());
-    let bytes = fs::read(folder.join("run.mcap")).expect("a log");
-    let mut counts = std::collections::BTreeMap::new();
-    let (mut lines, mut verdicts) = (String::new(), Vec::new());
-    for message in MessageStream::new(&bytes).expect("a log") {
-        let message = message.expect("a message");
-        let Schema { name, encoding, data, .. } = &**message.channel.schema.as_ref().expect("one");
-        assert_eq!(
-            (encoding.as_str(), message.channel.message_encoding.as_str()),
-            ("jsonschema", "json")
-        );
-        let value: Value = serde_json::from_slice(&message.data).expect("JSON");
-        // Foxglove follows no references.
-        let schema: Value = serde_json::from_slice(data).expect("JSON");
-        assert!(!schema.to_string().contains("$ref"));
-        jsonschema::validate(&schema, &value).unwrap_or_else(|error| panic!("{name}: {error}"));
-        if name == "mufasa.Cycle" {
-            lines += std::str::from_utf8(&message.data).expect("UTF-8");
-            lines.push('\n');
-        } else if name == "mufasa.Verdict" {
-            let stage = value["failed_stage"].as_str().expect("a text").to_owned();
-            verdicts.push((value["verdict"].as_str().expect("a text").to_owned(), stage));
-        }
-        *counts.entry(message.channel.topic.clone()).or_insert(0) += 1;
-    }
-    let topics = ["/actions", "/believed", "/cycle", "/ego", "/objects", "/verdict"];
-    assert_eq!(counts.keys().map(String::as_str).collect::<Vec<_>>(), topics);
-    assert!(counts.values().all(|count| *count == verdicts.len() && *count > 100), "{counts:?}");
-    fs::write(folder.join("run.jsonl"), lines).expect("lines");
-    let [log, lines] = ["run.mcap", "run.jsonl"].map(|file| {
-        let told = said(&folder, &["check", "--json", file]);
-        (told.code, told.out.replace(file, "FILE"))
-    });
-    assert_eq!(log, lines);
-    // And the answers are those of the run.
-    let cycles = log.1.lines().map(|line| serde_json::from_str::<Value>(line).expect("JSON"));
-    let cycles = cycles.filter(|it| it["kind"] == "checked_cycle");
-    let answers = cycles.map(|it| {
-        let of = |name: &str| it["implementation"][name].as_str().unwrap_or_default().to_owned();
-        (of("verdict"), of("failed_stage"))
-    });
-    assert_eq!(answers.collect::<Vec<_>>(), verdicts);
-    assert!(verdicts.iter().any(|it| it.0 == "unsafe") && verdicts.iter().any(|it| it.0 == "safe"));
 }
 
 #[test]
