@@ -12,6 +12,7 @@ use crate::cycle::check_unless;
 use crate::cycle::steps::{Counts, LISTS};
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
+use crate::input::profile::HardenedRule;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Source};
 use crate::report::{InvalidInput, Problem, Report};
@@ -164,8 +165,11 @@ impl Monitor<'_> {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
         let in_use = remote.map(|running| running.map(|running| running.session));
+        // MON-66
+        let has_seen = !self.settings.profile.has(HardenedRule::H14)
+            || inputs.detections.is_some_and(|list| current(list.stamp_ns));
         let Released { is_safe, tracks: gives_tracks, trajectory: gives_trajectory, sessions } =
-            Released::of(&report, in_use, has_current);
+            Released::of(&report, in_use, has_current, has_seen);
         let tracks = tracks.filter(|_| gives_tracks);
         let trajectory = trajectory.filter(|_| gives_trajectory);
         // MON-10

@@ -18,12 +18,13 @@ pub struct Released {
 }
 
 impl Released {
-    /// Of MOT and PLAN: the running session of a remote group, and whether what the cycle looked at was there and current.
-    /// Source: `spec/monitor.md#monitor`.
+    /// Of MOT and PLAN: the running session of a remote group, and whether what the cycle looked at was there and current;
+    /// whether it had what a trajectory is examined with, too. Source: `spec/monitor.md#monitor`.
     pub fn of(
         report: &Result<Report, InvalidInput>,
         [mot, plan]: [Option<i64>; 2],
         [has_tracks, has_trajectory]: [bool; 2],
+        has_seen: bool,
     ) -> Self {
         // MON-10
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
@@ -34,8 +35,8 @@ impl Released {
             .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
         // MON-01, MON-05
         let tracks = has_tracks && is_safe && was_compared && mot.is_some();
-        // MON-01, MON-04, MON-05, SCHED-18
-        let trajectory = has_trajectory && is_safe && (mot.is_some() || plan.is_some());
+        // MON-01, MON-04, MON-05, MON-66, SCHED-18
+        let trajectory = has_trajectory && has_seen && is_safe && (mot.is_some() || plan.is_some());
         // MON-11
         let sessions = Sessions { mot: mot.filter(|_| tracks), plan: plan.filter(|_| trajectory) };
         Self { is_safe, tracks, trajectory, sessions }

@@ -1,7 +1,7 @@
 //! What comes out of a cycle of the monitor, whatever the stages say (`spec/monitor.md#monitor`).
 //!
 //! Domain: an error or a report with any failed stage, whether stage i ran, any running sessions, any data that are
-//! current or not. Not covered: what the stages answer, of which `cycle` is tested.
+//! current or not, current detections or none. Not covered: what the stages answer, of which `cycle` is tested.
 
 use mufasa::monitor::Time;
 use mufasa::offloading::requester::Running;
@@ -29,19 +29,20 @@ pub fn verify_nothing_comes_out_of_an_unsafe_cycle() {
 }
 
 /// From a safe cycle remote tracks come out exactly when MOT is remote, they are current, and stage i ran; a trajectory
-/// exactly when a group is remote and it is current. In `Local` nothing does [SCHED-18, MON-01, MON-02, MON-04,
-/// MON-05].
+/// exactly when a group is remote, it is current, and there was what it is examined with: current detections, in the
+/// hardened profile. In `Local` nothing does [SCHED-18, MON-01, MON-02, MON-04, MON-05, MON-66].
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_what_comes_out_is_current_and_of_a_remote_group() {
     let cycle = cycle();
     let Released { is_safe, tracks, trajectory, .. } = cycle.released();
     let [mot, plan] = cycle.in_use.map(|session| session.is_some());
     assert!(tracks == (is_safe && mot && cycle.has_current[0] && !cycle.lacks_input));
-    assert!(trajectory == (is_safe && (mot || plan) && cycle.has_current[1]));
+    assert!(trajectory == (is_safe && (mot || plan) && cycle.has_current[1] && cycle.has_seen));
     assert!(mot || plan || !(tracks || trajectory));
     kani::cover!(tracks && !trajectory, "tracks alone");
     kani::cover!(trajectory && !plan, "a trajectory of the local planner");
     kani::cover!(is_safe && mot && cycle.has_current[0] && !tracks, "stage i did not run");
+    kani::cover!(is_safe && plan && cycle.has_current[1] && !trajectory, "nothing was seen");
     kani::cover!(is_safe && !mot && !plan && cycle.has_current[1], "local");
 }
 
@@ -73,7 +74,7 @@ pub fn verify_detections_that_do_not_fit_are_an_error() {
         assert!(is_own != cycle.is_error());
     }
     let found = kept.and(answer);
-    let released = Released::of(&found, cycle.in_use, cycle.has_current);
+    let released = Released::of(&found, cycle.in_use, cycle.has_current, cycle.has_seen);
     assert!(fits || !(released.is_safe || released.tracks || released.trajectory));
     kani::cover!(!fits && cycle.failed_stage.is_none() && !cycle.is_error(), "it does not fit");
     kani::cover!(fits && released.tracks, "it fits");
@@ -127,6 +128,7 @@ pub(super) struct AnyCycle {
     lacks_input: bool,
     pub(super) in_use: [Option<i64>; 2],
     pub(super) has_current: [bool; 2],
+    pub(super) has_seen: bool,
 }
 
 impl AnyCycle {
@@ -147,7 +149,7 @@ impl AnyCycle {
     }
 
     fn released(&self) -> Released {
-        Released::of(&self.answer(), self.in_use, self.has_current)
+        Released::of(&self.answer(), self.in_use, self.has_current, self.has_seen)
     }
 }
 
@@ -173,5 +175,6 @@ pub(super) fn cycle_of(in_use: [Option<i64>; 2]) -> AnyCycle {
         lacks_input: kani::any(),
         in_use,
         has_current: [kani::any(), kani::any()],
+        has_seen: kani::any(),
     }
 }

@@ -142,7 +142,7 @@ pub fn verify_the_requester_hears_what_came_out() {
     let (before, served) = any_valid_state();
     let in_use = running(&before);
     let cycle = cycle_of(in_use);
-    let released = Released::of(&cycle.answer(), in_use, cycle.has_current);
+    let released = Released::of(&cycle.answer(), in_use, cycle.has_current, cycle.has_seen);
     let kind = EventKind::Verdict { safe: released.is_safe, sessions: released.sessions };
     let step = Step::from((before, served), kind, &mut [], false);
     let after = running(&step.after);
