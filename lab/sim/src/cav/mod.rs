@@ -305,9 +305,10 @@ impl<'a> Cav<'a> {
         self.brake_by_ns
     }
 
-    /// Whether the CAV's own planner is the source of its trajectories.
+    /// Whether the CAV follows plans of its own that did not come out of a cycle.
     fn is_own(&self) -> bool {
-        !matches!(self.guard.state(Group::Plan), GroupState::Remote { .. })
+        // MON-42
+        self.guard.configuration() == Configuration::Local
     }
 
     fn happens(&mut self, now_ns: i64, kind: EventKind, radio: &mut Radio) {
