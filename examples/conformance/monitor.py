@@ -196,7 +196,7 @@ class Monitor:
         return None if cycle["configuration"] == "Local" else self.failed_stage(cycle), None
 
     def outcome(self, cycle, remote, elements):
-        """What comes out of a safe cycle (MON-01 to MON-05)."""
+        """What comes out of a safe cycle (MON-01 to MON-05, MON-66)."""
         def verified(element, g):
             slot = self.group[g] if remote[g] else {"station": 0, "session": None}
             return {"stamp_ns": element["stamp_ns"], "station": slot["station"],
@@ -208,7 +208,8 @@ class Monitor:
         if remote["mot"] and self.is_current(cycle["tracks"], now_ns) and (
                 self.is_current(cycle["detections"], now_ns)):
             out["tracks"] = verified(cycle["tracks"], "mot")
-        if self.is_current(cycle["trajectory"], now_ns):
+        if self.is_current(cycle["trajectory"], now_ns) and (
+                not self.hardened or self.is_current(cycle["detections"], now_ns)):
             out["trajectory"] = verified(cycle["trajectory"], "plan")
         return out
 

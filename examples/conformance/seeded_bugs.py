@@ -243,6 +243,9 @@ BUGS = [
     monitor("tracks-without-look", """ and (
                 self.is_current(cycle["detections"], now_ns)):""", ":",
             "MON-02: tracks come out of a cycle in which stage i did not run", "paper"),
+    monitor("trajectory-without-look", """ and (
+                not self.hardened or self.is_current(cycle["detections"], now_ns)):""", ":",
+            "MON-66: a trajectory comes out of a cycle without current detections"),
     monitor("older-used", '        used_ns = slot["used_ns"]\n',
             '        used_ns, slot["element"] = slot["used_ns"], content\n',
             "MON-07, MON-08: an element that was repeated, or is older than the last, is used"),

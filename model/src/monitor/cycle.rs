@@ -7,6 +7,7 @@ use super::settings::fits;
 use super::{Done, Judge, Monitor, history, supervision, ticks};
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
 use crate::input::domain::{Problem, first_problem};
+use crate::input::profile::HardenedRule;
 use crate::numbers::vector::Vector;
 use crate::offloading::requester::{EventKind, Sessions};
 use crate::report::{InvalidInput, Outcome, Report};
@@ -146,7 +147,7 @@ impl Monitor {
         }
     }
 
-    /// What comes out of a safe cycle: tracks and trajectory. [MON-01] [MON-02] [MON-04] [MON-05]
+    /// What comes out of a safe cycle: tracks and trajectory. [MON-01] [MON-02] [MON-04] [MON-05] [MON-66]
     fn verified(&self, cycle: &Cycle, report: &Report) -> (Option<Verified>, Option<Verified>) {
         let current = |stamp_ns| is_current(cycle.now_ns, stamp_ns, cycle.parameters.max_age_ns);
         let [stage_i, ..] = &report.stages;
@@ -163,7 +164,9 @@ impl Monitor {
             }
         };
         let is_current = |it: &Verified| current(it.stamp_ns);
-        (tracks.filter(is_current), trajectory.filter(is_current))
+        let is_looked_around = cycle.detections.as_ref().is_some_and(|it| current(it.stamp_ns));
+        let is_let_out = is_looked_around || !cycle.profile.has(HardenedRule::H14); // [MON-66]
+        (tracks.filter(is_current), trajectory.filter(|it| is_let_out && is_current(it)))
     }
 
     /// Whether the decision says `brake`. [MON-47] [MON-48] [MON-49] [MON-52]

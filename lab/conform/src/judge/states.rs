@@ -45,7 +45,7 @@ const REQUIREMENTS: [(&str, &str, &str, &str); 17] = [
     ("decision/failed_stage", "", "", "MON-06, MON-07, MON-08, MON-12 to MON-17"),
     ("decision/error", "", "", "MON-19, MON-46, MON-65"),
     ("decision/tracks", "", "", "MON-01, MON-02, MON-05"),
-    ("decision/trajectory", "", "", "MON-01, MON-04, MON-05"),
+    ("decision/trajectory", "", "", "MON-01, MON-04, MON-05, MON-66"),
     ("decision/brake_by_ns", "", "", "MON-40, MON-41"),
     ("decision/brake", "", "", "MON-47 to MON-52"),
 ];
