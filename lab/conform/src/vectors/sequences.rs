@@ -1,8 +1,8 @@
 //! Sequences of the monitor as authors write them: what they leave out is that of the base.
 //!
 //! * settings that are left out are those of [`SETTINGS`]; the route is that of the base cycle;
-//! * a cycle measures what the base cycle does, all of it stamped with its own time; `measured` is what
-//!   differs, by pointer (RFC 6901);
+//! * a cycle measures what the base cycle does but the grid, all of it stamped with its own time; `measured` is
+//!   what differs, by pointer (RFC 6901);
 //! * data are those of the base cycle, generated and stamped when they arrive, unless `generated_ns` and
 //!   `stamp_ns` say otherwise; a list of `count` tracks repeats the first.
 
@@ -77,8 +77,8 @@ fn complete(event: &mut Value, base: &Value) -> Result<(), String> {
 
 /// What the base cycle measures, stamped with another time, and what differs.
 fn measured(base: &Value, t_ns: i64, changes: &Value) -> Result<Value, String> {
-    let mut measured = json!({"ego": base["ego"]});
     // Without the grid, which is the largest part of a cycle.
+    let mut measured = json!({"ego": base["ego"], "grid": null});
     for key in ["trajectory", "tracks", "detections", "lead"] {
         measured[key] = stamped(&base[key], t_ns);
     }
