@@ -203,7 +203,7 @@ int main(void) {
       kept_len = decision.trajectory->points_len;
       if (kept_len > POINTS) return 1;
       memcpy(kept, decision.trajectory->points, kept_len * sizeof *kept);
-    } else if (!has_plan && now.ns + BUILD_UP < brake_by.ns) {
+    } else if (!has_plan && now.ns + BUILD_UP < brake_by.ns) { /* were MOT alone remote: also with an own plan (MON-42) */
       /* No other is there, also after an unsafe cycle: it drives to the next point of the copy. By its brake_by the
          CAV brakes fully; control, which runs more often than cycles do, looks at that time itself. */
       size_t next = 0;

@@ -112,6 +112,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());
                 follow(trajectory)
             }
+            // Were MOT alone remote, an own plan would be driven only when it came out (MON-42).
             (_, Some(own_plan)) => first(own_plan),
             (_, None)
                 if brake_by

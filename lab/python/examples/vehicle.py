@@ -96,6 +96,7 @@ def main() -> None:
             driven.append(follow(decision.trajectory))
             kept, brake_by = list(decision.trajectory.points), decision.trajectory.brake_by
         elif own_plan is not None:
+            # Were tracking alone remote, an own plan would be driven only when it came out (MON-42).
             driven.append(own_plan[0])
         elif kept and (brake_by is None or brake_by - now > BUILD_UP):
             # No other is there, also after an unsafe cycle: the copy of the last verified one. By its brake_by the CAV

@@ -16,7 +16,7 @@ import pytest
 from conftest import ROOT, Scene, at
 from mufasa import Detections, Gap, GridMap, Lead, Time, Track, Verdict
 
-# Of the monitor, and of the records that `check` is asked: the monitor refuses the default tau with a period of 100 ms.
+# Of the monitor, and of the records that `check` is asked: the monitor refuses a record's default of tau with a period of 100 ms.
 PARAMETERS: dict[str, Any] = {"dt_max_ns": 150_000_000, "tau": 0.25}
 DEMO = [ROOT / "lab/drives/data/demo" / name for name in ("urban.xml", "urban.solution.xml")]
 
