@@ -1025,11 +1025,12 @@ typedef struct MufasaDecision {
   // compared with what the CAV sees; an object that is not among them may still exist. Else null, so while the CAV
   // has no current detections, too.
   const struct MufasaTrackList *tracks;
-  // Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
-  // of the station, or while MOT alone is remote that of the CAV's own planner; else null.
+  // Of a safe cycle the trajectory that was checked, while a group is remote, it is current and, in the hardened
+  // profile, the CAV has current detections: that of the station, or while MOT alone is remote that of the CAV's own
+  // planner; else null.
   const struct MufasaTrajectory *trajectory;
-  // By when control has to brake along the trajectory, with `a_b`, unless a later cycle has given one or there is
-  // a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
+  // By when control has to brake along the trajectory, with `a_b`, unless a later cycle has given one or, except while MOT
+  // alone is remote, there is a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
   // the paper profile.
   struct MufasaTime brake_by;
   // Releases to be sent, and local services that start or stop.

@@ -103,9 +103,9 @@
 //!             driven_as_verified += 1;
 //!         }
 //!         Decision::Safe { trajectory: None, .. } => {
-//!             // Nothing current was there to be checked. The local planner is followed; where it is
-//!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
-//!             // copy, and by its `brake_by` it brakes. Where that lasts, the session ends as for silence.
+//!             // Nothing current was there to be checked, or the CAV has no current detections. The local
+//!             // planner is followed; where it is stopped (`Deactivate` came), or MOT alone is remote, the last
+//!             // verified trajectory, of which the CAV keeps a copy, and by its `brake_by` it brakes.
 //!         }
 //!         Decision::Unsafe { report, .. } => {
 //!             // Nothing of the station is used. The CAV's own plan is driven; until its planner, which was just
@@ -128,11 +128,11 @@
 //!   it. All places are in one right-handed frame (`spec/5-interfaces.md#cycle`).
 //! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.
 //! * Control follows the trajectory of a safe decision until the next one, a copy of the last verified
-//!   one while a safe decision has none and the local planner is stopped, and the local planner's
+//!   one while a safe decision has none and MOT is remote or the local planner is stopped, and the local planner's
 //!   otherwise. Where there is none of these by the `brake_by` of the last verified one, control brakes along
 //!   it with `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
-//! * A verdict is as good as the method: eight findings are open in the hardened profile
+//! * A verdict is as good as the method: ten findings are open in the hardened profile
 //!   (`findings/README.md`). Nothing here is certified.
 //!
 //! # Where things are

@@ -187,6 +187,7 @@ impl Monitor<'_> {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);
                 let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot, None));
+                // MON-40
                 let brake_by = self.settings.brake_by(now_ns);
                 let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan, brake_by));
                 (Decision::Safe { tracks, trajectory, report, brake }, actions)

@@ -76,7 +76,7 @@ impl<'c> Inputs<'c> {
     }
 
     /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote. In
-    /// MotRemote one that is not current is not checked, and does not come out: do not drive it. What
+    /// MotRemote do not drive one that does not come out: it is not current, or the CAV has no current detections. What
     /// its points have to be like: as of [`Self::remote_trajectory`].
     /// Source: `spec/monitor.md#monitor`.
     pub const fn local_trajectory(mut self, stamp: Time, points: &'c [TrajectoryPoint]) -> Self {

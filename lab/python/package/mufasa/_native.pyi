@@ -166,8 +166,8 @@ class VerifiedTrajectory:
 
     @property
     def brake_by(self) -> Time | None:
-        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or there is a
-        plan of the CAV's own: what was examined covers no more. None in the paper profile."""
+        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or, except while
+        MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more. None in the paper profile."""
 
 @final
 class Decision:
@@ -186,8 +186,8 @@ class Decision:
 
     @property
     def trajectory(self) -> VerifiedTrajectory | None:
-        """The trajectory that was checked, while a group is remote and it is current: that of the
-        station, or while MOT alone is remote that of the CAV's own planner. In Local nothing is checked.
+        """The trajectory that was checked, while a group is remote, it is current and, in the hardened
+        profile, the CAV has current detections: that of the station, or while MOT alone is remote that of the CAV's own planner. In Local nothing is checked.
 
         Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on."""
 
@@ -212,7 +212,7 @@ class Monitor:
 
     ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults
     by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to
-    be above the period. ``sessions_before``: at least the last session of earlier lives, so that no
+    be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session of earlier lives, so that no
     message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a
     cycle may take, any time where it is not given; it has memory for all of the domain.
     ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
