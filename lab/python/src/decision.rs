@@ -101,8 +101,9 @@ impl Decision {
         Ok(self.data()?.tracks.as_ref().map(|it| it.clone_ref(py)))
     }
 
-    /// The trajectory that was checked, while a group is remote and it is current: that of the station, or
-    /// while MOT alone is remote that of the CAV's own planner. In Local nothing is checked.
+    /// The trajectory that was checked, while a group is remote, it is current and, in the hardened
+    /// profile, the CAV has current detections: that of the station, or while MOT alone is remote that of
+    /// the CAV's own planner. In Local nothing is checked.
     ///
     /// Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on.
     #[getter]

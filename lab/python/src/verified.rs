@@ -148,8 +148,9 @@ verified! {
         {
             brake_by: Option<Time>;
 
-            /// By when control has to brake along it, with ``a_b``, unless a later cycle has given one or
-            /// there is a plan of the CAV's own: what was examined covers no more. None in the paper profile.
+            /// By when control has to brake along it, with ``a_b``, unless a later cycle has given one or,
+            /// except while MOT alone is remote, there is a plan of the CAV's own: what was examined covers
+            /// no more. None in the paper profile.
             #[getter]
             fn brake_by(&self) -> PyResult<Option<Time>> {
                 self.call.is_last().map(|()| self.brake_by)

@@ -166,8 +166,9 @@ class VerifiedTrajectory:
 
     @property
     def brake_by(self) -> Time | None:
-        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or, except while
-        MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more. None in the paper profile."""
+        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or, except
+        while MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more.
+        None in the paper profile."""
 
 @final
 class Decision:
@@ -187,7 +188,8 @@ class Decision:
     @property
     def trajectory(self) -> VerifiedTrajectory | None:
         """The trajectory that was checked, while a group is remote, it is current and, in the hardened
-        profile, the CAV has current detections: that of the station, or while MOT alone is remote that of the CAV's own planner. In Local nothing is checked.
+        profile, the CAV has current detections: that of the station, or while MOT alone is remote that
+        of the CAV's own planner. In Local nothing is checked.
 
         Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on."""
 
