@@ -9,6 +9,7 @@ mod motions;
 mod nearest;
 pub(crate) mod path;
 pub(crate) mod reach;
+pub(crate) mod road;
 mod spot;
 pub(crate) mod times;
 pub(crate) mod work;

@@ -39,6 +39,11 @@ impl<'c, 'a> Nodes<'c, 'a> {
         Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
     }
 
+    /// The points of the trajectory that are none, of these.
+    pub(crate) fn others<'p>(&self, points: &'p [TrajectoryPoint]) -> &'p [TrajectoryPoint] {
+        points.get(..points.len().saturating_sub(self.points.len())).unwrap_or(&[])
+    }
+
     /// The pieces in plain doubles, the last one cut off not before `s_stop`. None begins more than 1 cm beyond
     /// it (H-14.56).
     pub(crate) fn lines(self) -> impl Iterator<Item = Line> + Clone {

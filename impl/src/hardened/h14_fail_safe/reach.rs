@@ -1,13 +1,14 @@
 //! Whether the path is within reach (`spec/hardened/H-14.md#requirements-reach`).
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
+use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
-use crate::stages::llcc::sweep::split;
+use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::vector;
 
 /// What a trajectory may start aside, m.
@@ -17,36 +18,50 @@ const TURNED: f64 = 0.17;
 /// Half of what tyres hold, m/s^2.
 const TYRES: f64 = 5.75;
 
-/// The first place that is not certainly within reach. Most paths are told line by line: without that stage ii
+/// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line: without that stage ii
 /// of W1 and W2 takes a third more instructions.
 pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (nodes, plain) = (Nodes::new(cycle, points), Plain::new(cycle));
+    let p = [cycle.ego.x, cycle.ego.y];
+    let aside = nodes.others(points).iter().enumerate().find_map(|(index, point)| {
+        let q = minus([point.x, point.y], p);
+        let is_open = !plain.is_within(q, q);
+        let at = Vector::new(point.x, point.y);
+        is_open.then(|| failure(cycle, &Times::new(cycle), at)).flatten().map(|it| it.at_point(index))
+    });
+    if aside.is_some() {
+        return aside;
+    }
     if nodes.lines().all(|line| plain.is_within(line.from, line.to)) {
         return None;
     }
-    let (path, p) = (Path::new(nodes), [cycle.ego.x, cycle.ego.y]);
+    let path = Path::new(nodes);
     path.pieces().find_map(|piece| {
         let is_within = |run: [i64; 2]| {
             let [from, to] = piece.between(run, p).map(|[x, y, _]| [x, y]);
             plain.is_within(from, to)
         };
-        piece.first_place(is_within, |place| failure_at(&path, points.len(), place))
+        piece.first_place(is_within, |place| {
+            let is_p = place.number == 0;
+            let found = if is_p { None } else { failure(cycle, &path.times, place.pose.at) };
+            found.map(|witness| witness.at_point(place.point(points.len())))
+        })
     })
 }
 
-fn failure_at(path: &Path<'_, '_>, points: usize, place: &Place) -> Option<Witness> {
-    let ego = &path.nodes.cycle.ego;
-    let away = place.pose.at - Vector::new(ego.x, ego.y);
+fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness> {
+    let ego = &cycle.ego;
+    let away = x - Vector::new(ego.x, ego.y);
     let h = vector([ego.cos, ego.sin]);
     let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
     // H-14.15
-    if place.number == 0 || path.times.s_b.certainly_at_most(f) {
+    if times.s_b.certainly_at_most(f) {
         return None;
     }
     let bound =
-        Real::new(ASIDE) + Real::new(TURNED) * f + Real::new(TYRES) * path.times.last(f).squared();
+        Real::new(ASIDE) + Real::new(TURNED) * f + Real::new(TYRES) * times.last(f).squared();
     let witness = || Witness::of(Rule::Reach, [aside.value(), bound.value()]);
-    (!aside.certainly_at_most(bound)).then(|| witness().at_point(place.point(points)))
+    (!aside.certainly_at_most(bound)).then(witness)
 }
 
 /// What plain doubles say, from p on: they err by less than 2^-20 m up to 2^26 m, and by less than 1e-12

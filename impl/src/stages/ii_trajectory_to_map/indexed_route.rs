@@ -135,7 +135,31 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         self.route.cross_sections.len().saturating_sub(usize::from(!self.route.closed))
     }
 
-    fn pair(&self, index: usize) -> Option<(&'a CrossSection, &'a CrossSection)> {
+    /// The pair from that of the hint on of which the point is not in front, up to rounding.
+    pub(crate) fn walked(&self, q: [f64; 2], hint: usize) -> usize {
+        let is_beyond = |at: usize| self.pair(at).is_some_and(|(_, end)| is_beyond(end, q));
+        (hint..).take(STEPS).find(|&at| !is_beyond(at)).unwrap_or(hint)
+    }
+
+    /// The pairs whose corners are around the point, up to `reach`.
+    pub(crate) fn pairs_around(&self, q: [f64; 2], reach: f64) -> impl Iterator<Item = usize> {
+        candidates(self.index, self.pairs(), q, reach).filter(move |&at| {
+            self.pair(at).is_some_and(|(a, b)| {
+                let corners = [a.left, a.right, b.right, b.left];
+                (0..2).all(|axis| in_range(corners, q, axis, reach))
+            })
+        })
+    }
+
+    /// The cross section after those of the pair.
+    pub(crate) fn after(&self, index: usize) -> Option<&'a CrossSection> {
+        let next = index.saturating_add(1);
+        let first = (self.route.closed && next == self.pairs()).then_some(0);
+        self.pair(first.unwrap_or(next)).map(|(_, after)| after)
+    }
+
+    /// Consecutive cross sections, in a closed route the last and the first one, too.
+    pub(crate) fn pair(&self, index: usize) -> Option<(&'a CrossSection, &'a CrossSection)> {
         let cross_sections = self.route.cross_sections;
         let next = cross_sections.get(index.saturating_add(1));
         // S2-01, S2-02: of a closed route the last and the first one, too
@@ -180,7 +204,7 @@ fn certainly_between(a: &CrossSection, b: &CrossSection, q: [f64; 2]) -> bool {
 /// inside, the sides of a triangle without area see the point all on one side only on its line.
 fn in_triangle(corners: [[f64; 2]; 3], q: [f64; 2]) -> bool {
     let [a, b, c] = corners;
-    if !(0..2).all(|axis| in_range(corners, q, axis)) {
+    if !(0..2).all(|axis| in_range(corners, q, axis, 0.0)) {
         return false;
     }
     // Most are told apart without exact numbers, which a triangle without width would always need.
@@ -194,11 +218,12 @@ fn in_triangle(corners: [[f64; 2]; 3], q: [f64; 2]) -> bool {
         || sides.iter().all(|&side| side != Ordering::Greater)
 }
 
-/// Whether the point is within the extent of the corners along one axis; comparisons are exact.
-fn in_range(corners: [[f64; 2]; 3], q: [f64; 2], axis: usize) -> bool {
+/// Whether the point is within the extent of the corners along one axis, or at most `reach` outside up to
+/// rounding; without reach exact.
+fn in_range<const N: usize>(corners: [[f64; 2]; N], q: [f64; 2], axis: usize, reach: f64) -> bool {
     let value = |[x, y]: [f64; 2]| if axis == 0 { x } else { y };
-    corners.iter().any(|&corner| value(corner) <= value(q))
-        && corners.iter().any(|&corner| value(corner) >= value(q))
+    corners.iter().any(|&corner| value(corner) <= value(q) + reach)
+        && corners.iter().any(|&corner| value(corner) >= value(q) - reach)
 }
 
 #[cfg(test)]
