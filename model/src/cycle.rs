@@ -4,7 +4,7 @@
 
 use crate::hardened::detection_history::ambiguous_failure;
 use crate::hardened::h02_h05_h10_schedule::{no_obstacle_check, schedule};
-use crate::hardened::h14_fail_safe::{self, path, reach};
+use crate::hardened::h14_fail_safe::{self, path, reach, road};
 use crate::hardened::{h01_matched_pairs, h04_gap, h06_closed_cells, h07_start, h11_steps};
 use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
@@ -97,13 +97,14 @@ fn track_validation(scene: &Scene) -> Option<Witness> {
     })
 }
 
-/// H-07, H-11 and the reach of H-14 stand behind stage ii.
+/// H-07, H-11, and reach and road of H-14 stand behind stage ii.
 fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let map = OnMap::new(scene, trajectory);
-    let rules: [(HardenedRule, &dyn Fn() -> Option<Witness>); 3] = [
+    let rules: [(HardenedRule, &dyn Fn() -> Option<Witness>); 4] = [
         (HardenedRule::H07, &|| h07_start::failure(scene, &map)),
         (HardenedRule::H11, &|| h11_steps::step_failure(scene, trajectory)),
         (HardenedRule::H14, &|| reach::failure(scene, trajectory)),
+        (HardenedRule::H14, &|| road::failure(scene, &map)),
     ];
     let mut in_force = rules.iter().filter(|(rule, _)| scene.profile.has(*rule));
     map.failure(scene)

@@ -82,7 +82,7 @@ macro_rules! witness_rules {
             StartHeading = "start_heading";
             /// H-07: the trajectory starts too far aside.
             StartOffset = "start_offset";
-            /// H-07: a point outside the corridor.
+            /// Stage ii: a point (H-07) or a place (H-14) outside the corridor.
             Corridor = "corridor";
             /// H-07: heading against the nearest segments of the reference path.
             Direction = "direction";
@@ -100,7 +100,7 @@ macro_rules! witness_rules {
             StepTurn = "step_turn";
             /// H-11: the point is not where the headings lead.
             Slide = "slide";
-            /// Stage ii, H-14: a place is not within reach.
+            /// Stage ii, H-14: a place, or a point that is no node, is not within reach.
             Reach = "reach";
             /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react.
             Gap = "gap";

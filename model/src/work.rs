@@ -34,7 +34,7 @@ impl Work {
 ///
 /// * i: the steps of the assignment, of all tracks and detections (its work), and with H-01 or H-14 each
 ///   track with each detection and each item of a usable list;
-/// * ii: each trajectory point with each cross section, with H-14 each place, too (reach);
+/// * ii: each trajectory point, with H-14 each place, too (the road), with each cross section;
 /// * iii: each point with each track;
 /// * iv: each point with each detection;
 /// * v: each disk at each point, with H-04 at each place, too, with each cell that is as near as its
@@ -55,7 +55,9 @@ pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
             let left_out = usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(tracks);
             seen + assignment::work(tracks, detections + left_out)
         }
-        Stage::Ii => points * scene.route.cross_sections.len() as i128 + places(HardenedRule::H14),
+        Stage::Ii => {
+            (points + places(HardenedRule::H14)) * scene.route.cross_sections.len() as i128
+        }
         Stage::Iii => points * tracks as i128,
         Stage::Iv => points * detections as i128,
         Stage::V => {

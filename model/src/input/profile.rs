@@ -54,7 +54,7 @@ macro_rules! hardened_rules {
                 "ii step_lateral", "ii step_turn", "ii slide"
             ];
             /// The fail-safe rule.
-            H14 = "H-14" witnesses ["ii reach", "iv fail_safe", "iv work_limit"];
+            H14 = "H-14" witnesses ["ii reach", "ii corridor", "iv fail_safe", "iv work_limit"];
         }
     };
 }

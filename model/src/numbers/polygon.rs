@@ -1,6 +1,8 @@
 //! Triangles and small squares, exactly: whether a union of triangles contains a square, or meets
 //! it (`spec/4-arithmetic.md#strict-and-lax`).
 
+use std::cmp::Ordering;
+
 use crate::numbers::reading::{Comparisons, Reading};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
@@ -16,6 +18,16 @@ pub fn is_in_union(reads: &Comparisons, triangles: &[Triangle], point: &Vector) 
         Reading::Exact => triangles.iter().any(|triangle| contains_point(triangle, point)),
         Reading::Strict => union_contains(triangles, &square()),
         Reading::Lax => union_meets(triangles, &square()),
+    }
+}
+
+/// The point lies in the union of the triangles, each of which has a side in common with the next, in a
+/// closed strip the last with the first. Strictly, all of its square lies in one of them, or in two
+/// neighbours and on the inner side of each of their outer sides; laxly, some point of the square in one.
+pub fn is_in_strip(reads: &Comparisons, strip: &[Triangle], closed: bool, point: &Vector) -> bool {
+    match reads.reading {
+        Reading::Exact | Reading::Lax => is_in_union(reads, strip, point),
+        Reading::Strict => strip_contains(strip, closed, &square(point, &reads.delta)),
     }
 }
 
@@ -48,6 +60,47 @@ pub fn union_contains(triangles: &[Triangle], square: &[Vector; 4]) -> bool {
     rest.is_empty()
 }
 
+/// One triangle with an area, or two neighbours with an area that turn the same way round, have the
+/// square on the inner side of each side that is not common to both. (Others than those that the
+/// square meets cannot.)
+pub fn strip_contains(strip: &[Triangle], closed: bool, square: &[Vector; 4]) -> bool {
+    let meets = |triangle: &Triangle| shares_a_point(triangle, square);
+    let closing = closed.then(|| [&strip[strip.len() - 1], &strip[0]]);
+    let neighbours = strip.windows(2).map(|pair| [&pair[0], &pair[1]]).chain(closing);
+    let mut pairs = neighbours.filter(|[a, b]| meets(a) || meets(b));
+    let mut triangles = strip.iter().filter(|triangle| meets(triangle));
+    triangles.any(|triangle| are_around(&sides(triangle), turn(triangle), square))
+        || pairs.any(|[a, b]| {
+            let outer = [outer_sides(a, b), outer_sides(b, a)].concat();
+            turn(a) == turn(b) && are_around(&outer, turn(a), square)
+        })
+}
+
+/// The sides of a triangle, from corner to corner.
+fn sides([a, b, c]: &Triangle) -> [[&Vector; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
+}
+
+/// The sides of a triangle that are no side of another one.
+fn outer_sides<'a>(triangle: &'a Triangle, other: &Triangle) -> Vec<[&'a Vector; 2]> {
+    let is_common = |side: &[&Vector; 2]| side.iter().all(|end| other.contains(end));
+    sides(triangle).into_iter().filter(|side| !is_common(side)).collect()
+}
+
+/// All of the square is on the inner side of sides that turn left (`Greater`) or right (`Less`).
+fn are_around(sides: &[[&Vector; 2]], turn: Ordering, square: &[Vector; 4]) -> bool {
+    let is_inside = |[from, to]: &[&Vector; 2], corner: &Vector| {
+        (*to - *from).cross(&(corner - *from)).cmp(&Real::zero()) != turn.reverse()
+    };
+    turn != Ordering::Equal
+        && sides.iter().all(|side| square.iter().all(|corner| is_inside(side, corner)))
+}
+
+/// Which way round a triangle turns: left (`Greater`), right (`Less`), or it has no area.
+fn turn([a, b, c]: &Triangle) -> Ordering {
+    (b - a).cross(&(c - a)).cmp(&Real::zero())
+}
+
 /// Two convex sets of corners, the first a triangle, have a point in common: neither an axis of
 /// the plane nor a normal of a side of the triangle separates them. That is enough when the other
 /// is an axis-parallel square or a point.
@@ -76,11 +129,10 @@ fn shares_a_point(triangle: &Triangle, other: &[Vector]) -> bool {
 
 /// The convex pieces of positive area that are left of a convex piece outside the triangle.
 fn without(piece: &[Vector], triangle: &Triangle) -> Vec<Vec<Vector>> {
-    let area = (&triangle[1] - &triangle[0]).cross(&(&triangle[2] - &triangle[0]));
-    let counterclockwise = match area.cmp(&Real::zero()) {
-        std::cmp::Ordering::Equal => return vec![piece.to_vec()],
-        std::cmp::Ordering::Greater => [&triangle[0], &triangle[1], &triangle[2]],
-        std::cmp::Ordering::Less => [&triangle[0], &triangle[2], &triangle[1]],
+    let counterclockwise = match turn(triangle) {
+        Ordering::Equal => return vec![piece.to_vec()],
+        Ordering::Greater => [&triangle[0], &triangle[1], &triangle[2]],
+        Ordering::Less => [&triangle[0], &triangle[2], &triangle[1]],
     };
     let mut inside = piece.to_vec();
     let mut left = Vec::new();
@@ -122,7 +174,7 @@ fn half(piece: &[Vector], from: &Vector, to: &Vector) -> Option<Vec<Vector>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{contains_point, square, union_contains, union_meets};
+    use super::{contains_point, square, strip_contains, union_contains, union_meets};
     use crate::numbers::real::Real;
     use crate::numbers::vector::Vector;
 
@@ -162,5 +214,70 @@ mod tests {
         assert!(!contains_point(&tile()[0], &point(2.0, 2.000_001)));
         assert!(contains_point(&tile()[2], &point(3.0, 3.0)));
         assert!(!contains_point(&tile()[2], &point(5.0, 5.0)));
+    }
+
+    /// Two squares of 4 m side by side, (left, right, next right) and (left, next right, next left) of each.
+    fn strip(last_left: Vector) -> Vec<[Vector; 3]> {
+        let left = [point(0.0, 4.0), point(4.0, 4.0), last_left];
+        let right = [point(0.0, 0.0), point(4.0, 0.0), point(8.0, 0.0)];
+        let triangles = |i: usize| {
+            [[&left[i], &right[i], &right[i + 1]], [&left[i], &right[i + 1], &left[i + 1]]]
+        };
+        (0..2).flat_map(triangles).map(|triangle| triangle.map(Vector::clone)).collect()
+    }
+
+    #[test]
+    fn neighbours_contain_a_square_across_their_common_side() {
+        let contains = |x: f64, y: f64| {
+            let square = square(&point(x, y), &Real::from_double(0.5));
+            let strip = strip(point(8.0, 4.0));
+            let mirrored: Vec<_> =
+                strip.iter().map(|[a, b, c]| [b, a, c].map(Vector::clone)).collect();
+            let found = strip_contains(&strip, false, &square);
+            assert_eq!(strip_contains(&mirrored, false, &square), found, "turned the other way");
+            assert!(!found || union_contains(&strip, &square));
+            found
+        };
+        assert!(contains(1.0, 1.0), "in one triangle");
+        assert!(contains(2.0, 2.0), "across the diagonal of a square");
+        assert!(contains(4.0, 2.0), "across the side of two squares");
+        assert!(contains(0.5, 3.5) && contains(0.5, 0.5), "on the boundary");
+        assert!(!contains(0.499_999, 0.5) && !contains(0.5, 3.500_001));
+        assert!(!contains(4.0, 0.5), "across three triangles");
+    }
+
+    #[test]
+    fn a_closed_strip_has_a_neighbour_of_the_last() {
+        let mut strip = strip(point(8.0, 4.0));
+        strip.rotate_left(2);
+        let across = square(&point(4.0, 2.0), &Real::from_double(0.5));
+        assert!(!strip_contains(&strip, false, &across));
+        assert!(strip_contains(&strip, true, &across));
+    }
+
+    #[test]
+    fn triangles_at_a_fold_or_without_an_area_are_no_neighbours() {
+        let half = Real::from_double(0.5);
+        // The last triangle, (4, 4), (8, 0), (4, 1), folds back.
+        let folded = strip(point(4.0, 1.0));
+        assert!(!strip_contains(&folded, false, &square(&point(6.0, 2.0), &half)));
+        assert!(strip_contains(&folded[3..], false, &square(&point(5.0, 2.0), &half)));
+        // Its corners are on a line now.
+        let flat = strip(point(6.0, 2.0));
+        let dot = square(&point(6.0, 2.0), &Real::zero());
+        assert!(!strip_contains(&flat[3..], false, &dot));
+        assert!(strip_contains(&flat, false, &dot));
+    }
+
+    #[test]
+    fn neighbours_with_a_corner_inwards_contain_what_all_their_outer_sides_see() {
+        // The boundary turns right at (8, 0), on to (12, -2).
+        let inwards = strip(point(12.0, -2.0));
+        let contained = |x: f64, y: f64| {
+            let square = square(&point(x, y), &Real::from_double(0.25));
+            [strip_contains(&inwards, false, &square), union_contains(&inwards, &square)]
+        };
+        assert_eq!(contained(7.25, 0.75), [true, true]);
+        assert_eq!(contained(7.5, 0.5), [false, true]);
     }
 }

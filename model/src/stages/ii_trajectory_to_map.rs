@@ -4,7 +4,7 @@
 //! distance to the reference path <= theta_map, or inside the path boundaries
 
 use crate::input::scene::{Point, Route, Scene};
-use crate::numbers::polygon::{Triangle, is_in_union};
+use crate::numbers::polygon::{Triangle, is_in_strip, is_in_union};
 use crate::numbers::polyline::{Beside, Segment, beside};
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
@@ -49,6 +49,11 @@ impl<'a> OnMap<'a> {
     /// The i-th point is inside the corridor.
     pub fn is_inside(&self, scene: &Scene, i: usize) -> bool {
         is_in_union(&scene.reads, &self.corridor, &self.trajectory[i].pose.origin)
+    }
+
+    /// A place of H-14 is inside the corridor.
+    pub fn holds_place(&self, scene: &Scene, place: &Vector) -> bool {
+        is_in_strip(&scene.reads, &self.corridor, scene.route.closed, place)
     }
 }
 

@@ -1,11 +1,12 @@
 //! H-14, the fail-safe rule (`spec/hardened/H-14.md`): what the CAV can always do, going on for tau at most and
-//! then braking along its path, meets nobody. Reach is a rule of stage ii, the rest stands in the place
-//! of stage iv.
+//! then braking along its path, meets nobody. Reach and road are rules of stage ii, the rest stands in the
+//! place of stage iv.
 
 pub mod meeting;
 pub mod motions;
 pub mod path;
 pub mod reach;
+pub mod road;
 pub mod times;
 pub mod work;
 

@@ -1,4 +1,5 @@
-//! Reach: no place is farther aside than tyres can carry the CAV (`spec/hardened/H-14.md#requirements-reach`).
+//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV
+//! (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
 use crate::hardened::h14_fail_safe::times::Driving;
@@ -8,23 +9,24 @@ use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2.
+/// A point before the first node, or a place other than p, with f < s_b(v) is farther aside than
+/// 0.5 m + 0.17 f + 5.75 t^2.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let mut places = places(scene, trajectory).enumerate().skip(1);
-    places.find_map(|(k, place)| {
-        let witness = aside_failure(scene, &place.pose.origin)?;
-        Some(witness.at_point(trajectory.len() + k))
-    })
+    let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
+    let points = trajectory[..first_node].iter().map(|point| point.pose.origin.clone()).enumerate();
+    let places = places(scene, trajectory).map(|place| place.pose.origin);
+    let mut all = points.chain((trajectory.len()..).zip(places).skip(1));
+    all.find_map(|(i, x)| Some(aside_failure(scene, &x)?.at_point(i)))
 }
 
-/// abs((place - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
-fn aside_failure(scene: &Scene, place: &Vector) -> Option<Witness> {
+/// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
+fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
     let driving = Driving::of(scene);
-    let f = ahead(scene, place).max(Real::zero());
+    let f = ahead(scene, x).max(Real::zero());
     if !scene.reads.may_be_less(&f, &driving.s_b()) {
         return None;
     }
-    let aside = (place - &scene.ego.position).cross(&scene.ego.heading).abs();
+    let aside = (x - &scene.ego.position).cross(&scene.ego.heading).abs();
     let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
     let limit = offset + turn * &f + grip * driving.last(&f).square();
     Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)

@@ -6,6 +6,7 @@ mod meeting;
 mod motions;
 mod path;
 mod reach;
+mod road;
 mod route_bends;
 mod times;
 

@@ -2,6 +2,7 @@
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};
+use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
@@ -10,11 +11,11 @@ use crate::near::*;
 
 const HARDENED: Profile = Profile::HARDENED;
 
-/// The CAV at 8 m/s, on a trajectory that leads `aside` m to its left.
+/// The CAV at 8 m/s, on a trajectory that begins 1 m ahead and leads `aside` m to its left.
 fn beside(cycle: &mut Cycle, aside: f64) {
     cycle.ego.speed = 8.0;
     cycle.parameters.lateral_tolerance = 2.0;
-    points(cycle).iter_mut().for_each(|point| point.y = aside);
+    points(cycle).iter_mut().for_each(|point| (point.x, point.y) = (point.x + 1.0, aside));
 }
 
 /// 0.5 m + 0.17 f + 5.75 t^2 at f = 1 m, where braking from 8 m/s leads to after (8 - sqrt(48)) / 8 s.
@@ -44,6 +45,52 @@ fn margins_move_the_reach() {
         cycle.profile = Profile::PAPER;
         assert_eq!(rule(&cycle, Stage::Ii), None, "{name}");
     }
+}
+
+/// The first point is `x` m ahead, `aside` m to the left.
+fn starts(cycle: &mut Cycle, x: f64, aside: f64) {
+    (cycle.ego.speed, cycle.parameters.lateral_tolerance) = (8.0, 2.0);
+    let points = vec![at_time(0, x, aside)];
+    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+}
+
+/// A point that is no node is asked, too, at f = 0 where the CAV has passed it.
+/// H-14.15.
+#[test]
+fn margins_move_the_reach_of_points_that_are_no_nodes() {
+    let rules = [Rule::Reach; 2];
+    margins_move_rules(
+        &[
+            ("beside p", PlanRemote, HARDENED, |c, e| starts(c, 0.0, 0.5 + e)),
+            ("passed", PlanRemote, HARDENED, |c, e| starts(c, -1.0, -0.5 - e)),
+        ],
+        &rules,
+    );
+    let mut standing = base(HARDENED, PlanRemote);
+    starts(&mut standing, 0.0, 0.6);
+    standing.ego.speed = 0.0;
+    assert_eq!(rule(&standing, Stage::Ii), None, "f is not below s_b(0)");
+}
+
+/// Of a turn on the spot the witness is the first point too far aside, before any place.
+#[test]
+fn a_turn_on_the_spot_is_not_within_reach() {
+    let mut cycle = base(HARDENED.without(HardenedRule::H11), PlanRemote);
+    let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
+        Outcome::Failed(it) => Some((it.rule, it.point, it.compared[0].to_string())),
+        _ => None,
+    };
+    for (point, i) in points(&mut cycle).iter_mut().zip(0u8..) {
+        (point.x, point.y) = (0.0, f64::from(i) / 4.0);
+    }
+    points(&mut cycle).truncate(12);
+    assert_eq!(found(&cycle), Some((Rule::Reach, Some(3), "0.75".into())));
+    points(&mut cycle)[3].x = 0.25;
+    assert_eq!(
+        found(&cycle),
+        Some((Rule::Reach, Some(12 + 3), "0.75".into())),
+        "a node is a place"
+    );
 }
 
 /// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
