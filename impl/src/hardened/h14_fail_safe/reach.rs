@@ -27,7 +27,10 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
         let q = minus([point.x, point.y], p);
         let is_open = !plain.is_within(q, q);
         let at = Vector::new(point.x, point.y);
-        is_open.then(|| failure(cycle, &Times::new(cycle), at)).flatten().map(|it| it.at_point(index))
+        is_open
+            .then(|| failure(cycle, &Times::new(cycle), at))
+            .flatten()
+            .map(|it| it.at_point(index))
     });
     if aside.is_some() {
         return aside;

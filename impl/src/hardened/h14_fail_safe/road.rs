@@ -1,12 +1,11 @@
 //! Whether the path keeps to the road (`spec/hardened/H-14.md#requirements-the-road`).
 
-use core::cell::Cell;
 use core::cmp::Ordering;
 
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
 use crate::input::cycle::{CrossSection, Cycle, TrajectoryPoint};
 use crate::numbers::exact::{certain_orientation, orientation};
-use crate::numbers::plane::Vector;
+use crate::numbers::plane::{Vector, same_point};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -20,55 +19,51 @@ pub(crate) fn road_failure(
     route: IndexedRoute<'_, '_>,
     points: &[TrajectoryPoint],
 ) -> Option<Witness> {
-    let (path, hint) = (Path::new(Nodes::new(cycle, points)), Cell::new(0));
+    let (path, mut hint) = (Path::new(Nodes::new(cycle, points)), 0);
     path.pieces().find_map(|piece| {
         let is_inside = |run: [i64; 2]| {
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
-            let found = route.plainly_between(ends, hint.get());
-            hint.set(found.unwrap_or(hint.get()));
+            let found = route.plainly_between(ends, hint);
+            hint = found.unwrap_or(hint);
             found.is_some()
         };
-        piece.first_place(is_inside, |place| failure_at(route, points.len(), place, &hint))
+        piece.first_place(is_inside, |place| failure_at(route, points.len(), place))
     })
 }
 
-fn failure_at(
-    route: IndexedRoute<'_, '_>,
-    points: usize,
-    place: &Place,
-    hint: &Cell<usize>,
-) -> Option<Witness> {
+fn failure_at(route: IndexedRoute<'_, '_>, points: usize, place: &Place) -> Option<Witness> {
     // H-14.58
-    let found = route.between(place.pose.at);
-    hint.set(found.unwrap_or(hint.get()));
-    if place.number == 0 || found.is_some() {
+    if place.number == 0 || route.is_between(place.pose.at) {
         return None;
     }
     let Vector { x, y } = place.pose.at;
-    let witness = route.too_far([x.value(), y.value()], hint.get(), Rule::Corridor, 0.0);
+    let witness = route.too_far([x.value(), y.value()], 0, Rule::Corridor, 0.0);
     Some(witness.at_point(place.point(points)))
 }
 
 impl IndexedRoute<'_, '_> {
-    /// A pair of cross sections between which both points, and so all between them, certainly are; from that of
-    /// the hint on.
+    /// A pair of cross sections between which both points, and so all between them, certainly are: from that of
+    /// the hint on, a point alone anywhere.
     fn plainly_between(&self, ends: [[f64; 2]; 2], hint: usize) -> Option<usize> {
-        let at = self.walked(ends[0], hint);
-        let (a, b) = self.pair(at)?;
-        Shape::of_pair(a, b).holds_plainly(ends).then_some(at)
+        let holds = |at: &usize| {
+            self.pair(*at).is_some_and(|(a, b)| Shape::of_pair(a, b).holds_plainly(ends))
+        };
+        let [from, to] = ends;
+        let expected = Some(self.walked(from, hint)).filter(holds);
+        expected.or_else(|| {
+            same_point(from, to).then(|| self.pairs_around(from, 0.0).find(holds)).flatten()
+        })
     }
 
-    /// A pair of cross sections at which the place certainly is in the corridor.
-    fn between(&self, place: Vector) -> Option<usize> {
+    /// Whether the place certainly is in the corridor.
+    fn is_between(&self, place: Vector) -> bool {
         let q = [place.x.value(), place.y.value()];
-        self.pairs_around(q, MARGIN).find(|&at| {
+        self.pairs_around(q, MARGIN).any(|at| {
             self.pair(at).is_some_and(|(a, b)| {
-                let after = self.after(at).map(|c| Shape::across(a, b, c));
+                let across = self.after(at).map(|c| Shape::across(a, b, c));
                 let [one, other] = triangles(a, b).map(Shape::of_triangle);
-                [Some(Shape::of_pair(a, b)), Some(one), Some(other), after]
-                    .into_iter()
-                    .flatten()
-                    .any(|shape| shape.holds(place))
+                let shapes = [Some(Shape::of_pair(a, b)), Some(one), Some(other), across];
+                shapes.into_iter().flatten().any(|shape| shape.holds(place))
             })
         })
     }
@@ -112,8 +107,11 @@ impl Shape {
             && turn == other
             && self.sides.iter().all(|&[from, to]| {
                 let beside = Vector::between(from, to).cross(place - Vector::new(from[0], from[1]));
-                let [least, most] =
-                    if turn == Ordering::Less { [beside, Real::ZERO] } else { [Real::ZERO, beside] };
+                let [least, most] = if turn == Ordering::Less {
+                    [beside, Real::ZERO]
+                } else {
+                    [Real::ZERO, beside]
+                };
                 least.certainly_at_most(most)
             })
     }

@@ -45,6 +45,7 @@ pub(crate) fn assign(
         column.potential = 0;
         column.distance = UNKNOWN;
     }
+    // S1-04
     (0..count).filter(|&start| augment(rows, columns, start, costs).is_some()).count()
 }
 

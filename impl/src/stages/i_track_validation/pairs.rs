@@ -57,6 +57,7 @@ impl<'a> Pairs<'a> {
     /// Whether at least `k` pairs were assigned and no row twice: looked at again, so that no
     /// acceptance rests on the search.
     pub(crate) fn are_one_to_one(&self, rows: &[Row], columns: &[Column], k: usize) -> bool {
+        // S1-04
         let is_its_rows = |(index, column): (usize, &Column)| {
             let row = rows.get(usize::from(column.row));
             column.row == NONE || row.is_some_and(|row| usize::from(row.column) == index)
