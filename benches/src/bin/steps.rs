@@ -17,7 +17,7 @@ use mufasa_benches::worst::{
 };
 
 /// What is run: a stage, or the checks of the input.
-const INPUTS: [(&str, Option<Stage>); 16] = [
+const INPUTS: [(&str, Option<Stage>); 18] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -28,6 +28,8 @@ const INPUTS: [(&str, Option<Stage>); 16] = [
     ("one-place", Some(Stage::I)),
     ("off-route", Some(Stage::Ii)),
     ("on-route", Some(Stage::Ii)),
+    ("along-route", Some(Stage::Ii)),
+    ("on-a-line", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
     ("detections", Some(Stage::Iv)),
     ("moving", Some(Stage::Iv)),
@@ -54,8 +56,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
     let size: u32 = size.parse()?;
-    let folded = folded(if input.ends_with("route") { 8 * size } else { 4 });
-    let hardened = Cycle { profile: Profile::HARDENED, ..base(&folded, &[0; 8]) };
+    let road = match input.as_str() {
+        "along-route" => straight(8 * size),
+        "on-a-line" => aside(8 * size),
+        input => folded(if input.ends_with("route") { 8 * size } else { 4 }),
+    };
+    let hardened = Cycle { profile: Profile::HARDENED, ..base(&road, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
     let seen_as = |track: Track| detection(track.x, track.y);
@@ -134,6 +140,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         "surplus" => Cycle { detection_history: &all, ..lists(&upright, &few) },
         "off-route" => Cycle { parameters: wide, ..plan(&off) },
         "on-route" => plan(&on),
+        // As fast that the places end about where the points do.
+        "along-route" | "on-a-line" => {
+            let speed = (6.0 * f64::from(size)).sqrt();
+            let parameters = Parameters { v_max: 1e3, ..base.parameters };
+            Cycle { ego: Ego { speed, ..base.ego }, parameters, ..plan(&along) }
+        }
         "tracks" => Cycle { tracks: Some(tracks(&below)), ..plan(&roof) },
         "detections" => {
             let detections = Some(list(&below_seen));
@@ -211,6 +223,22 @@ fn folded(count: u32) -> Vec<CrossSection> {
         CrossSection { x, y, left: [x, y + half.copysign(x)], right: [x, y - half.copysign(x)] }
     };
     (0..count).map(cross_section).collect()
+}
+
+/// Along the way, with more cross sections than places.
+fn straight(count: u32) -> Vec<CrossSection> {
+    let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
+    places(count, 0.0625 * 1.25).map(|x| cross_section(x - 2.5)).collect()
+}
+
+/// Across the way, which is on the line through the boundaries of its middle.
+fn aside(count: u32) -> Vec<CrossSection> {
+    let middle = 0.5 * f64::from(count);
+    let cross_section = |i: f64| {
+        let y = 0.1 * (i - middle);
+        CrossSection { x: 40.0, y: y + 0.05, left: [-5.0, y], right: [90.0, y] }
+    };
+    places(count, 1.0).map(cross_section).collect()
 }
 
 /// A bit for each cell of the grid that no disk of the standing CAV touches.

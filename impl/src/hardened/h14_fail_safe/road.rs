@@ -1,11 +1,11 @@
 //! Whether the path keeps to the road (`spec/hardened/H-14.md#requirements-the-road`).
 
-use core::cmp::Ordering;
+use core::cmp::Ordering::{self, Equal, Greater, Less};
+use core::iter;
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
+use crate::hardened::h14_fail_safe::path::{Nodes, Path};
 use crate::input::cycle::{CrossSection, Cycle, TrajectoryPoint};
-use crate::numbers::exact::{certain_orientation, orientation};
-use crate::numbers::plane::{Vector, same_point};
+use crate::numbers::plane::Vector;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -23,48 +23,44 @@ pub(crate) fn road_failure(
     path.pieces().find_map(|piece| {
         let is_inside = |run: [i64; 2]| {
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
-            let found = route.plainly_between(ends, hint);
+            let mut found = route.plainly_between(ends, hint);
+            if let (None, [one, last]) = (found, run)
+                && one == last
+            {
+                found = route.between(piece.place(one).pose.at);
+            }
             hint = found.unwrap_or(hint);
-            found.is_some()
+            // H-14.58
+            found.is_some() || piece.first.saturating_add(run[1]) == 0
         };
-        piece.first_place(is_inside, |place| failure_at(route, points.len(), place))
+        piece.first_place(is_inside, |place| {
+            let Vector { x, y } = place.pose.at;
+            let witness = route.too_far([x.value(), y.value()], 0, Rule::Corridor, 0.0);
+            Some(witness.at_point(place.point(points.len())))
+        })
     })
 }
 
-fn failure_at(route: IndexedRoute<'_, '_>, points: usize, place: &Place) -> Option<Witness> {
-    // H-14.58
-    if place.number == 0 || route.is_between(place.pose.at) {
-        return None;
-    }
-    let Vector { x, y } = place.pose.at;
-    let witness = route.too_far([x.value(), y.value()], 0, Rule::Corridor, 0.0);
-    Some(witness.at_point(place.point(points)))
-}
-
 impl IndexedRoute<'_, '_> {
-    /// A pair of cross sections between which both points, and so all between them, certainly are: from that of
-    /// the hint on, a point alone anywhere.
+    /// A pair of cross sections at which both points, and so all between them, certainly are in the corridor, from
+    /// that of the hint on.
     fn plainly_between(&self, ends: [[f64; 2]; 2], hint: usize) -> Option<usize> {
-        let holds = |at: &usize| {
-            self.pair(*at).is_some_and(|(a, b)| Shape::of_pair(a, b).holds_plainly(ends))
-        };
-        let [from, to] = ends;
-        let expected = Some(self.walked(from, hint)).filter(holds);
-        expected.or_else(|| {
-            same_point(from, to).then(|| self.pairs_around(from, 0.0).find(holds)).flatten()
-        })
+        let at = self.walked(ends[0], hint);
+        self.shapes(at).any(|shape| shape.holds_plainly(ends)).then_some(at)
     }
 
-    /// Whether the place certainly is in the corridor.
-    fn is_between(&self, place: Vector) -> bool {
+    /// A pair of cross sections at which the place certainly is in the corridor.
+    fn between(&self, place: Vector) -> Option<usize> {
         let q = [place.x.value(), place.y.value()];
-        self.pairs_around(q, MARGIN).any(|at| {
-            self.pair(at).is_some_and(|(a, b)| {
-                let across = self.after(at).map(|c| Shape::across(a, b, c));
-                let [one, other] = triangles(a, b).map(Shape::of_triangle);
-                let shapes = [Some(Shape::of_pair(a, b)), Some(one), Some(other), across];
-                shapes.into_iter().flatten().any(|shape| shape.holds(place))
-            })
+        self.pairs_around(q, MARGIN).find(|&at| self.shapes(at).any(|shape| shape.holds(place)))
+    }
+
+    /// Both triangles of a pair, those before and behind its last cross section, and each of the pair.
+    fn shapes(&self, at: usize) -> impl Iterator<Item = Shape> {
+        self.pair(at).into_iter().flat_map(move |(a, b)| {
+            let across = self.after(at).map(|c| Shape::across(a, b, c));
+            let each = triangles(a, b).map(Shape::of_triangle);
+            iter::once(Shape::of_pair(a, b)).chain(across).chain(each)
         })
     }
 }
@@ -102,33 +98,49 @@ impl Shape {
 
     /// Whether the place certainly is in it. MARGIN-17: nothing is in triangles that turn differently.
     fn holds(&self, place: Vector) -> bool {
-        let [turn, other] = self.triangles.map(|[a, b, c]| orientation(a, b, c));
-        turn != Ordering::Equal
-            && turn == other
-            && self.sides.iter().all(|&[from, to]| {
-                let beside = Vector::between(from, to).cross(place - Vector::new(from[0], from[1]));
-                let [least, most] = if turn == Ordering::Less {
-                    [beside, Real::ZERO]
-                } else {
-                    [Real::ZERO, beside]
-                };
-                least.certainly_at_most(most)
-            })
+        let q = [place.x.value(), place.y.value()];
+        let plain = self.sides.map(|side| sign(side, q));
+        if plain.contains(&Less) && plain.contains(&Greater) {
+            return false;
+        }
+        let beside = |[from, to]: [[f64; 2]; 2], at: Vector| {
+            Vector::between(from, to).cross(at - Vector::new(from[0], from[1]))
+        };
+        let [one, other] = self.triangles.map(|[a, b, [x, y]]| beside([a, b], Vector::new(x, y)));
+        let turns_left = Real::ZERO.certainly_below(one.min(other));
+        if !turns_left && !one.max(other).certainly_below(Real::ZERO) {
+            return false;
+        }
+        self.sides.iter().all(|&side| {
+            let beside = beside(side, place);
+            let [least, most] =
+                if turns_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
+            least.certainly_at_most(most)
+        })
     }
 
     /// Whether both points are in it, in plain doubles, and by more than these may err.
     fn holds_plainly(&self, points: [[f64; 2]; 2]) -> bool {
-        let [turn, other] = self.triangles.map(|[a, b, c]| certain_orientation(a, b, c));
-        let sign = if turn < 0.0 { -1.0 } else { 1.0 };
-        turn * other > 0.0
-            && self.sides.iter().all(|&[[ax, ay], [bx, by]]| {
-                let (ux, uy) = (bx - ax, by - ay);
-                points.iter().all(|&[x, y]| {
-                    let (one, less) = (ux * (y - ay), uy * (x - ax));
-                    let error = MARGIN * (ux.abs() + uy.abs()) + 1e-15 * (one.abs() + less.abs());
-                    sign * (one - less) > error
-                })
-            })
+        let [turn, other] = self.triangles.map(|[a, b, c]| sign([a, b], c));
+        turn == other
+            && turn != Equal
+            && self.sides.iter().all(|&side| points.iter().all(|&point| sign(side, point) == turn))
+    }
+}
+
+/// On which side the point is, `Greater` is left; in plain doubles, `Equal` where it is not beside by more than
+/// these may err.
+fn sign([[ax, ay], [bx, by]]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> Ordering {
+    let (ux, uy) = (bx - ax, by - ay);
+    let (one, other) = (ux * (y - ay), uy * (x - ax));
+    let error = MARGIN * (ux.abs() + uy.abs()) + 1e-15 * (one.abs() + other.abs());
+    let beside = one - other;
+    if beside > error {
+        Greater
+    } else if beside < -error {
+        Less
+    } else {
+        Equal
     }
 }
 

@@ -26,7 +26,7 @@ fn what_is_found_is_in_the_corridor() {
         let route = IndexedRoute::new(&route, None);
         let q = [small(&mut random, 40) / 4.0, small(&mut random, 24) / 4.0];
         let is_inside = route.in_corridor(q, &mut 0);
-        let is_found = route.is_between(Vector::new(q[0], q[1]));
+        let is_found = route.between(Vector::new(q[0], q[1])).is_some();
         let plainly = route.plainly_between([q; 2], 0);
         assert!(is_inside || !is_found, "{q:?} {cross_sections:?}");
         assert!(is_found || plainly.is_none(), "{q:?} {cross_sections:?}");
@@ -47,9 +47,9 @@ fn what_is_on_a_side_of_two_triangles_is_found() {
     let route = Route { closed: false, cross_sections: &cross_sections };
     let route = IndexedRoute::new(&route, None);
     for inside in [[4.0, 1.0], [4.0, -1.75], [2.0, 0.0], [6.0, 0.0], [1.0, 1.0]] {
-        assert!(route.is_between(Vector::new(inside[0], inside[1])), "{inside:?}");
+        assert!(route.between(Vector::new(inside[0], inside[1])).is_some(), "{inside:?}");
     }
     for outside in [[2.0, 2.0_f64.next_up()], [-0.25, 0.0], [8.25, 0.0], [4.0, 2.25]] {
-        assert!(!route.is_between(Vector::new(outside[0], outside[1])), "{outside:?}");
+        assert!(route.between(Vector::new(outside[0], outside[1])).is_none(), "{outside:?}");
     }
 }
