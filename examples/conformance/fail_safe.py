@@ -33,14 +33,20 @@ def ahead(x, y, heading):
     return x * Fraction(heading["cos"]) + y * Fraction(heading["sin"])
 
 
+def parted(cycle):
+    """The points of the trajectory that are no nodes of the path, and those that are."""
+    ego, points = cycle["ego"], cycle["trajectory"]["points"]
+    passed = list(itertools.takewhile(
+        lambda point: ahead(*displacement(ego, point), ego) <= Fraction(1, 8), points))
+    return passed, points[len(passed):]
+
+
 def pieces(cycle):
     """Of each piece: from one place to the next (x, y, way), how often, and the headings on the
     piece and at its end. The last one goes straight on without an end."""
     ego = cycle["ego"]
     d = min(Fraction(1, 4), Fraction(ego["length"]))
-    nodes = [ego, *itertools.dropwhile(
-        lambda point: ahead(*displacement(ego, point), ego) <= Fraction(1, 8),
-        cycle["trajectory"]["points"])]
+    nodes = [ego, *parted(cycle)[1]]
     for a, b in zip(nodes, nodes[1:]):
         x, y = displacement(a, b)
         n = max(1, math.ceil(abs(x) / d), math.ceil(abs(y) / d))
@@ -168,12 +174,13 @@ class FailSafe:
         return path(self.cycle, self.stop.s_stop)
 
     def within_reach(self):
-        """Tyres can bring the CAV there, when it brakes at once."""
-        for place in self.places[1:]:
-            f = max(ahead(place.x, place.y, self.ego), 0)
-            aside = abs(place.pose["x"] * self.ego["sin"] - place.pose["y"] * self.ego["cos"])
+        """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once."""
+        aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
+        for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
+            f = max(ahead(x, y, self.ego), 0)
+            far = abs(float(x) * self.ego["sin"] - float(y) * self.ego["cos"])
             if f < self.stop.s_b and (
-                    aside > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
+                    far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
                 return False
         return True
 

@@ -8,6 +8,7 @@ from fail_safe import FailSafe
 from geometry import EPS, assignment_cost, distance
 from hardened_ii import stage_ii
 from paper import current, gated, s_b, stage_iii, stage_iv, too_much_work
+from road import on_the_road
 
 
 def failed_stage(cycle):
@@ -22,7 +23,7 @@ def failed_stage(cycle):
     if not now["trajectory"]:
         return None
     rule = FailSafe(cycle)
-    if not (stage_ii(cycle) and rule.within_reach()):
+    if not (stage_ii(cycle) and rule.within_reach() and on_the_road(cycle, rule.places)):
         return "ii"
     ran_iii = now["tracks"] and configuration != "MotRemote"
     if ran_iii and not stage_iii(cycle):

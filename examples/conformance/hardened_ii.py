@@ -6,7 +6,7 @@ from stopping import between, cross, dot
 
 
 def stage_ii(cycle):
-    """But for the reach (fail_safe.py)."""
+    """But for what H-14 asks of it: reach (fail_safe.py) and road (road.py)."""
     return (starts_at_the_cav(cycle) and on_the_route(cycle) and steps_are_driven(cycle)
             and way_aside_is_driven(cycle))
 
