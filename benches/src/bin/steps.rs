@@ -56,11 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let (_, stage) = INPUTS.iter().find(|(name, _)| name == input).ok_or("which input?")?;
     let size: u32 = size.parse()?;
-    let road = match input.as_str() {
-        "along-route" => straight(8 * size),
-        "on-a-line" => aside(8 * size),
-        input => folded(if input.ends_with("route") { 8 * size } else { 4 }),
-    };
+    let road = road(input, size);
     let hardened = Cycle { profile: Profile::HARDENED, ..base(&road, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
@@ -103,7 +99,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     // They drift from the other lane into the CAV's way.
     let oncoming = numbered(&|id| Track { vx: -20.0, vy: -2.0, ..track(id, 60.0, 4.0) });
 
-    let limited = Parameters { work_limit: i64::from(size) * 8192, ..Parameters::default() };
     let strict = Parameters { theta_tr: 0.2, ..base.parameters };
     let wide = Parameters { theta_map: 1e3, ..base.parameters };
     let plan = |points| Cycle { trajectory: Some(trajectory(points)), ..base };
@@ -112,7 +107,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Cycle { tracks, detections, parameters: strict, ..base }
     };
     let fail_safe = Cycle {
-        parameters: limited,
+        parameters: Parameters { work_limit: i64::from(size) * 8192, ..Parameters::default() },
         ego: Ego { speed: 20.0, ..base.ego },
         trajectory: Some(trajectory(&along)),
         ..base
@@ -140,12 +135,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "surplus" => Cycle { detection_history: &all, ..lists(&upright, &few) },
         "off-route" => Cycle { parameters: wide, ..plan(&off) },
         "on-route" => plan(&on),
-        // As fast that the places end about where the points do.
-        "along-route" | "on-a-line" => {
-            let speed = (6.0 * f64::from(size)).sqrt();
-            let parameters = Parameters { v_max: 1e3, ..base.parameters };
-            Cycle { ego: Ego { speed, ..base.ego }, parameters, ..plan(&along) }
-        }
+        "along-route" | "on-a-line" => until_the_points_end(&plan(&along)),
         "tracks" => Cycle { tracks: Some(tracks(&below)), ..plan(&roof) },
         "detections" => {
             let detections = Some(list(&below_seen));
@@ -211,6 +201,21 @@ fn count(cycle: &Cycle<'_>, stage: Option<Stage>) {
         Some(stage) => it.stage(stage),
     });
     println!("{most} {}", if passed { "passes" } else { "fails" });
+}
+
+/// As fast that the places end about where the points do.
+fn until_the_points_end<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
+    let last = cycle.trajectory.and_then(|it| it.points.last());
+    let ego = Ego { speed: last.map_or(0.0, |it| (12.0 * it.x).sqrt()), ..cycle.ego };
+    Cycle { ego, parameters: Parameters { v_max: 1e3, ..cycle.parameters }, ..*cycle }
+}
+
+fn road(input: &str, size: u32) -> Vec<CrossSection> {
+    match input {
+        "along-route" => straight(8 * size),
+        "on-a-line" => aside(8 * size),
+        input => folded(if input.ends_with("route") { 8 * size } else { 4 }),
+    }
 }
 
 /// A road that goes back and forth, so that every place between is near all of it; without width but for its
