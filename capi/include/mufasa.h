@@ -656,10 +656,11 @@ typedef struct MufasaTrajectoryPoint {
 //   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
 // * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
 //   turn as a vehicle can (H-11);
-// * corridor: every point inside, none heading against the route (H-07);
 // * reach: the path from the CAV through those that are ahead of it, and straight on, no farther aside than
 //   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
-//   go on and stop.
+//   go on and stop;
+// * corridor: every point inside, none heading against the route (H-07), and each place of that path inside, up to
+//   where the CAV stands at the latest (H-14).
 typedef struct MufasaTrajectory {
   // Time of generation.
   struct MufasaTime stamp;
@@ -1231,7 +1232,8 @@ MufasaStatus mufasa_monitor_init(const struct MufasaMonitorSettings *settings,
 
 // From now on the CAV follows this route, of which a copy and an index are kept. When the status is
 // not OK it follows the route before; INVALID_ROUTE: a value is outside its domain, of which
-// `mufasa_monitor_route_problem` says the field.
+// `mufasa_monitor_route_problem` says the field. Where the route ends before the CAV can stop, each cycle of the
+// hardened profile fails stage ii (H-14.58).
 //
 // # Safety
 // `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other

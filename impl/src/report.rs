@@ -97,7 +97,7 @@ pub enum Rule {
     StartHeading,
     /// H-07: the trajectory starts too far aside.
     StartOffset,
-    /// H-07: a point outside the corridor.
+    /// H-07: a point outside the corridor. H-14: a place.
     Corridor,
     /// H-07: heading against the nearest segments of the reference path.
     Direction,
@@ -115,7 +115,7 @@ pub enum Rule {
     StepTurn,
     /// H-11: the point is not where the headings lead.
     Slide,
-    /// H-14: a place of the path is farther aside than tyres take the CAV.
+    /// H-14: a point or place is farther aside than tyres take the CAV.
     Reach,
     /// Stage iv: gap <= `s_follow`; H-04: gap <= `s_react`.
     Gap,

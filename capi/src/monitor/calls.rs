@@ -48,7 +48,8 @@ pub unsafe extern "C" fn mufasa_monitor_init(
 
 /// From now on the CAV follows this route, of which a copy and an index are kept. When the status is
 /// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain, of which
-/// `mufasa_monitor_route_problem` says the field.
+/// `mufasa_monitor_route_problem` says the field. Where the route ends before the CAV can stop, each cycle of the
+/// hardened profile fails stage ii (H-14.58).
 ///
 /// # Safety
 /// `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other

@@ -122,7 +122,8 @@ impl<'a> Monitor<'a> {
         calibration::run()
     }
 
-    /// From now on the CAV follows this route, of which a copy is kept.
+    /// From now on the CAV follows this route, of which a copy is kept. Where it ends before the CAV can stop
+    /// (`s_stop`), each cycle of the hardened profile fails stage ii (H-14.58).
     ///
     /// Errors: the first invalid value; less memory than it needs. Then it follows the route before.
     /// Source: `spec/3-stages.md#stage-ii-trajectory-to-map`.

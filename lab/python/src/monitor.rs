@@ -102,7 +102,7 @@ impl Monitor {
         Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })
     }
 
-    /// From now on the CAV follows this route (``CrossSection``), of which a copy is kept.
+    /// The CAV follows this route (``CrossSection``) from now on, of which a copy is kept. It has to lead up to s_stop.
     #[pyo3(signature = (cross_sections, *, closed = false))]
     fn set_route(
         &mut self,

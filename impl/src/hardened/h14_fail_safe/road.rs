@@ -30,7 +30,7 @@ pub(crate) fn road_failure(
                 found = route.between(piece.place(one).pose.at);
             }
             hint = found.unwrap_or(hint);
-            // H-14.58
+            // H-14.58, A-04
             found.is_some() || piece.first.saturating_add(run[1]) == 0
         };
         piece.first_place(is_inside, |place| {

@@ -238,7 +238,7 @@ class Monitor:
         meant: Sequence[str] = (),
     ) -> Monitor: ...
     def set_route(self, cross_sections: Rows, *, closed: bool = False) -> None:
-        """From now on the CAV follows this route (``CrossSection``), of which a copy is kept."""
+        """The CAV follows this route (``CrossSection``) from now on, of which a copy is kept. It has to lead up to s_stop."""
 
     def offer(self, now: Time, station: int, groups: Sequence[Group]) -> Actions:
         """A station, at least 1, offers groups; this replaces its previous offer."""
