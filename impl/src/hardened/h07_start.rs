@@ -7,7 +7,9 @@ use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
-use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, STEPS, Segment};
+use crate::stages::ii_trajectory_to_map::indexed_route::{
+    IndexedRoute, STEPS, Segment, plain_square,
+};
 
 /// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
 /// it turns faster than 1.7 rad/s.
@@ -109,7 +111,7 @@ fn not_along(
     let (least, nearest) = route.path_distance(q, *hint);
     *hint = nearest;
     let near = route.segments(q, least.magnitude());
-    near.filter(|segment| !route.is_farther(q, segment, least)).find_map(|segment| {
+    near.filter(|segment| !IndexedRoute::is_farther(q, segment, least)).find_map(|segment| {
         let away = segment_distance(q, segment.from, segment.to);
         let along = heading.dot(Vector::between(segment.from, segment.to));
         // H-07.7
@@ -175,14 +177,8 @@ impl IndexedRoute<'_, '_> {
     /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.
     /// Plain doubles err by less than 2^-22 m.
     pub(crate) fn at_most(&self, q: [f64; 2], index: usize) -> f64 {
-        let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(index) else {
-            return f64::MAX;
-        };
-        let ([x, y], ux, uy) = (q, bx - ax, by - ay);
-        let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
-        let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
-        let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
-        libm::sqrt(dx * dx + dy * dy) + 1e-6
+        let square = self.segment(index).map(|segment| plain_square(q, &segment));
+        square.map_or(f64::MAX, |square| libm::sqrt(square) + 1e-6)
     }
 
     /// A segment that is at least as near as that of the hint, as far as walking along the route

@@ -93,7 +93,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let start = self.segment(hint).map_or(unknown, |segment| (length(&segment), hint));
         let reach = start.0.magnitude();
         self.segments(q, reach).fold(start, |(best, at), segment| {
-            if self.is_farther(q, &segment, best) {
+            if Self::is_farther(q, &segment, best) {
                 return (best, at);
             }
             let candidate = length(&segment);
@@ -103,10 +103,10 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         })
     }
 
-    /// Whether the segment certainly is farther than that, in plain doubles: `at_most` is less than 1e-5 m more
-    /// than the distance.
-    pub(crate) fn is_farther(&self, q: [f64; 2], segment: &Segment, distance: Real) -> bool {
-        self.at_most(q, segment.index) > distance.magnitude() + 1e-5
+    /// Whether the segment certainly is farther than that, in plain doubles, which err by less than 2^-22 m.
+    pub(crate) fn is_farther(q: [f64; 2], segment: &Segment, distance: Real) -> bool {
+        let reach = distance.magnitude() + 1e-5;
+        plain_square(q, segment) > reach * reach
     }
 
     /// The witness that a place is too far from the reference path.
@@ -166,6 +166,16 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let next = next.or_else(|| cross_sections.first().filter(|_| self.route.closed));
         cross_sections.get(index).zip(next)
     }
+}
+
+/// The square of the distance from the point to the segment in plain doubles, m^2.
+pub(crate) fn plain_square([x, y]: [f64; 2], segment: &Segment) -> f64 {
+    let ([ax, ay], [bx, by]) = (segment.from, segment.to);
+    let (ux, uy) = (bx - ax, by - ay);
+    let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
+    let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
+    let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
+    dx * dx + dy * dy
 }
 
 /// Lower bound on the distance from the point to the segment: to its bounding box, in plain
