@@ -1,25 +1,35 @@
 //! Whether the path keeps to the road (`spec/hardened/H-14.md#requirements-the-road`).
 
 use core::cmp::Ordering::{self, Equal, Greater, Less};
-use core::iter;
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::path::{Line, Nodes, Path};
 use crate::input::cycle::{CrossSection, Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
+use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::llcc::sweep::minus;
 
 /// What plain doubles leave open, m: places err by less than 2^-20 m in them.
 const MARGIN: f64 = 1e-6;
 
-/// The first place that is not certainly in the corridor.
+/// So long is what is looked at in plain doubles at least, m: about from place to place.
+const SHORTEST: f64 = 0.25;
+
+/// The first place that is not certainly in the corridor. Most paths are told line by line: without that stage ii of
+/// W1 and W2 takes twice as many instructions.
 pub(crate) fn road_failure(
     cycle: &Cycle<'_>,
     route: IndexedRoute<'_, '_>,
     points: &[TrajectoryPoint],
 ) -> Option<Witness> {
-    let (path, mut hint) = (Path::new(Nodes::new(cycle, points)), 0);
+    let (nodes, p, mut hint) = (Nodes::new(cycle, points), [cycle.ego.x, cycle.ego.y], 0);
+    route.in_corridor(p, &mut hint);
+    if nodes.lines().all(|line| route.plainly_contains(p, &line, &mut hint)) {
+        return None;
+    }
+    let path = Path::new(nodes);
     path.pieces().find_map(|piece| {
         let is_inside = |run: [i64; 2]| {
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
@@ -42,95 +52,129 @@ pub(crate) fn road_failure(
 }
 
 impl IndexedRoute<'_, '_> {
+    /// Whether the line, seen from p, certainly is in the corridor: piece by piece, which are half as long where it
+    /// was not.
+    fn plainly_contains(&self, [x, y]: [f64; 2], line: &Line, hint: &mut usize) -> bool {
+        let (from, [ux, uy]) = ([x + line.from[0], y + line.from[1]], minus(line.to, line.from));
+        let shortest = SHORTEST / larger(larger(ux.abs(), uy.abs()), SHORTEST);
+        let after = |part: f64| [from[0] + part * ux, from[1] + part * uy];
+        let (mut at, mut size) = (0.0, 1.0);
+        while at < 1.0 {
+            let end = smaller(at + size, 1.0);
+            if let Some(found) = self.plainly_between([at, end].map(after), *hint) {
+                (*hint, at) = (found, end);
+            } else if size > shortest {
+                size *= 0.5;
+            } else {
+                return false;
+            }
+        }
+        true
+    }
+
     /// A pair of cross sections at which both points, and so all between them, certainly are in the corridor, from
     /// that of the hint on.
     fn plainly_between(&self, ends: [[f64; 2]; 2], hint: usize) -> Option<usize> {
         let at = self.walked(ends[0], hint);
-        self.shapes(at).any(|shape| shape.holds_plainly(ends)).then_some(at)
+        let (a, b) = self.pair(at)?;
+        let [from, to] = ends;
+        let pair = of_pair(a, b);
+        let turn = inner_side(&pair, from);
+        // What leaves the pair leaves its triangles.
+        let is_found = if turn == Equal {
+            triangles(a, b).iter().any(|triangle| are_inside(triangle, ends))
+        } else {
+            turn == inner_side(&pair, to)
+        };
+        let is_found =
+            is_found || self.after(at).is_some_and(|c| are_inside(&across(a, b, c), ends));
+        is_found.then_some(at)
     }
 
     /// A pair of cross sections at which the place certainly is in the corridor.
     fn between(&self, place: Vector) -> Option<usize> {
         let q = [place.x.value(), place.y.value()];
-        self.pairs_around(q, MARGIN).find(|&at| self.shapes(at).any(|shape| shape.holds(place)))
-    }
-
-    /// Both triangles of a pair, those before and behind its last cross section, and each of the pair.
-    fn shapes(&self, at: usize) -> impl Iterator<Item = Shape> {
-        self.pair(at).into_iter().flat_map(move |(a, b)| {
-            let across = self.after(at).map(|c| Shape::across(a, b, c));
-            let each = triangles(a, b).map(Shape::of_triangle);
-            iter::once(Shape::of_pair(a, b)).chain(across).chain(each)
+        self.pairs_around(q, MARGIN).find(|&at| {
+            self.pair(at).is_some_and(|(a, b)| {
+                hold(&of_pair(a, b), place)
+                    || self.after(at).is_some_and(|c| hold(&across(a, b, c), place))
+                    || triangles(a, b).iter().any(|triangle| hold(triangle, place))
+            })
         })
     }
 }
 
-type Triangle = [[f64; 2]; 3];
+type Point = [f64; 2];
 
 /// Those between two cross sections (S2-02).
-const fn triangles(a: &CrossSection, b: &CrossSection) -> [Triangle; 2] {
+const fn triangles(a: &CrossSection, b: &CrossSection) -> [[Point; 3]; 2] {
     [[a.left, a.right, b.right], [a.left, b.right, b.left]]
 }
 
-/// What is on the inner side of the sides of two triangles that share a side, other than that one: convex, and
-/// in one of them. A triangle is two of itself.
-struct Shape {
-    triangles: [Triangle; 2],
-    sides: [[[f64; 2]; 2]; 4],
+/// The corners of these triangles, from a common one to the other and back. What is on the inner side of all four sides is in one
+/// of the triangles, on whichever side of the common one it is.
+const fn of_pair(a: &CrossSection, b: &CrossSection) -> [Point; 4] {
+    [a.left, a.right, b.right, b.left]
 }
 
-impl Shape {
-    fn of_pair(a: &CrossSection, b: &CrossSection) -> Self {
-        let sides = [[a.left, a.right], [a.right, b.right], [b.right, b.left], [b.left, a.left]];
-        Self { triangles: triangles(a, b), sides }
-    }
+/// The same of the triangles before and behind the cross section b.
+const fn across(a: &CrossSection, b: &CrossSection, c: &CrossSection) -> [Point; 4] {
+    [b.right, c.right, b.left, a.left]
+}
 
-    /// The triangles on both sides of a cross section.
-    fn across(a: &CrossSection, b: &CrossSection, c: &CrossSection) -> Self {
-        let ([_, before], [after, _]) = (triangles(a, b), triangles(b, c));
-        let sides = [[a.left, b.right], [b.right, c.right], [c.right, b.left], [b.left, a.left]];
-        Self { triangles: [before, after], sides }
-    }
+fn sides<const N: usize>(corners: &[Point; N]) -> impl Iterator<Item = [Point; 2]> {
+    let mut from = corners.last().copied().unwrap_or_default();
+    corners.iter().map(move |&to| [core::mem::replace(&mut from, to), to])
+}
 
-    fn of_triangle([a, b, c]: Triangle) -> Self {
-        Self { triangles: [[a, b, c]; 2], sides: [[a, b], [b, c], [c, a], [c, a]] }
+/// Whether the place certainly is on the inner side of all sides. MARGIN-17: nothing is in triangles that turn
+/// differently, or have no area.
+fn hold<const N: usize>(corners: &[Point; N], place: Vector) -> bool {
+    let q = [place.x.value(), place.y.value()];
+    let is_beside = |side: Ordering| sides(corners).any(|it| sign(it, q) == side);
+    if is_beside(Less) && is_beside(Greater) {
+        return false;
     }
-
-    /// Whether the place certainly is in it. MARGIN-17: nothing is in triangles that turn differently.
-    fn holds(&self, place: Vector) -> bool {
-        let q = [place.x.value(), place.y.value()];
-        let plain = self.sides.map(|side| sign(side, q));
-        if plain.contains(&Less) && plain.contains(&Greater) {
-            return false;
-        }
-        let beside = |[from, to]: [[f64; 2]; 2], at: Vector| {
-            Vector::between(from, to).cross(at - Vector::new(from[0], from[1]))
-        };
-        let [one, other] = self.triangles.map(|[a, b, [x, y]]| beside([a, b], Vector::new(x, y)));
-        let turns_left = Real::ZERO.certainly_below(one.min(other));
-        if !turns_left && !one.max(other).certainly_below(Real::ZERO) {
-            return false;
-        }
-        self.sides.iter().all(|&side| {
-            let beside = beside(side, place);
-            let [least, most] =
-                if turns_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
+    let beside = |from: Point, to: Point, at: Vector| {
+        Vector::between(from, to).cross(at - Vector::new(from[0], from[1]))
+    };
+    let turns = |turn: fn(Real) -> bool| {
+        let mut rest = corners.iter().skip(1);
+        corners.first().zip(rest.next()).is_some_and(|(first, second)| {
+            let mut last = second;
+            rest.all(|corner| {
+                let is_so = turn(beside(*first, *last, Vector::new(corner[0], corner[1])));
+                last = corner;
+                is_so
+            })
+        })
+    };
+    let is_left = turns(|area| Real::ZERO.certainly_below(area));
+    let is_right = turns(|area| area.certainly_below(Real::ZERO));
+    (is_left || is_right)
+        && sides(corners).all(|[from, to]| {
+            let beside = beside(from, to, place);
+            let [least, most] = if is_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
             least.certainly_at_most(most)
         })
-    }
+}
 
-    /// Whether both points are in it, in plain doubles, and by more than these may err.
-    fn holds_plainly(&self, points: [[f64; 2]; 2]) -> bool {
-        let [turn, other] = self.triangles.map(|[a, b, c]| sign([a, b], c));
-        turn == other
-            && turn != Equal
-            && self.sides.iter().all(|&side| points.iter().all(|&point| sign(side, point) == turn))
-    }
+/// Whether both points, and so all between them, certainly are inside, in plain doubles.
+fn are_inside<const N: usize>(corners: &[Point; N], [from, to]: [Point; 2]) -> bool {
+    let turn = inner_side(corners, from);
+    turn != Equal && turn == inner_side(corners, to)
+}
+
+/// On which side of all sides the point certainly is, in plain doubles; `Equal` where it is not on one of all.
+fn inner_side<const N: usize>(corners: &[Point; N], point: Point) -> Ordering {
+    let mut signs = sides(corners).map(|side| sign(side, point));
+    let turn = signs.next().unwrap_or(Equal);
+    if signs.all(|it| it == turn) { turn } else { Equal }
 }
 
 /// On which side the point is, `Greater` is left; in plain doubles, `Equal` where it is not beside by more than
 /// these may err.
-fn sign([[ax, ay], [bx, by]]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> Ordering {
+fn sign([[ax, ay], [bx, by]]: [Point; 2], [x, y]: Point) -> Ordering {
     let (ux, uy) = (bx - ax, by - ay);
     let (one, other) = (ux * (y - ay), uy * (x - ax));
     let error = MARGIN * (ux.abs() + uy.abs()) + 1e-15 * (one.abs() + other.abs());
