@@ -135,28 +135,25 @@ fn hold<const N: usize>(corners: &[Point; N], place: Vector) -> bool {
     if is_beside(Less) && is_beside(Greater) {
         return false;
     }
-    let beside = |from: Point, to: Point, at: Vector| {
+    let beside = |[from, to]: [Point; 2], at: Vector| {
         Vector::between(from, to).cross(at - Vector::new(from[0], from[1]))
     };
-    let turns = |turn: fn(Real) -> bool| {
-        let mut rest = corners.iter().skip(1);
-        corners.first().zip(rest.next()).is_some_and(|(first, second)| {
-            let mut last = second;
-            rest.all(|corner| {
-                let is_so = turn(beside(*first, *last, Vector::new(corner[0], corner[1])));
-                last = corner;
-                is_so
-            })
-        })
+    // The triangles have the first corner in common.
+    let [first, behind @ ..] = &corners[..] else { return false };
+    let areas = || {
+        let pairs = behind.iter().zip(behind.iter().skip(1));
+        pairs.map(|(from, to)| beside([*first, *from], Vector::new(to[0], to[1])))
     };
-    let is_left = turns(|area| Real::ZERO.certainly_below(area));
-    let is_right = turns(|area| area.certainly_below(Real::ZERO));
-    (is_left || is_right)
-        && sides(corners).all(|[from, to]| {
-            let beside = beside(from, to, place);
-            let [least, most] = if is_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
-            least.certainly_at_most(most)
-        })
+    let is_left = areas().all(|area| Real::ZERO.certainly_below(area));
+    let is_right = areas().all(|area| area.certainly_below(Real::ZERO));
+    if !is_left && !is_right {
+        return false;
+    }
+    sides(corners).all(|side| {
+        let beside = beside(side, place);
+        let [least, most] = if is_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
+        least.certainly_at_most(most)
+    })
 }
 
 /// Whether both points, and so all between them, certainly are inside, in plain doubles.
