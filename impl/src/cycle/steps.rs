@@ -225,7 +225,7 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
                 product([64, many.saturating_add(assignment.saturating_mul(many).isqrt())]),
                 product([3, assignment]),
             ]),
-            sum([product([64, poses]), product([32, p, s]), product([2, k, s])]),
+            sum([product([64, poses]), product([2, s, sum([product([16, p]), k])])]),
             sum([product([64, p]), product([20, p, t])]),
             sum([product([64, p]), product([20, p, d])]),
             v,
