@@ -33,12 +33,9 @@ pub(crate) fn road_failure(
     path.pieces().find_map(|piece| {
         let is_inside = |run: [i64; 2]| {
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
-            let mut found = route.plainly_between(ends, hint);
-            if let (None, [one, last]) = (found, run)
-                && one == last
-            {
-                found = route.between(piece.place(one).pose.at);
-            }
+            let is_one = run[0] == run[1];
+            let place = || is_one.then(|| route.between(piece.place(run[0]).pose.at)).flatten();
+            let found = route.plainly_between(ends, hint).or_else(place);
             hint = found.unwrap_or(hint);
             // H-14.58, A-04
             found.is_some() || piece.first.saturating_add(run[1]) == 0
