@@ -39,7 +39,7 @@ impl<'c, 'a> Nodes<'c, 'a> {
         Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
     }
 
-    /// The points of the trajectory that are none, of these.
+    /// Of all points of the trajectory those that are no nodes: the first ones.
     pub(crate) fn others<'p>(&self, points: &'p [TrajectoryPoint]) -> &'p [TrajectoryPoint] {
         points.get(..points.len().saturating_sub(self.points.len())).unwrap_or(&[])
     }

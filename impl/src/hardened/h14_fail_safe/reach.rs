@@ -18,19 +18,18 @@ const TURNED: f64 = 0.17;
 /// Half of what tyres hold, m/s^2.
 const TYRES: f64 = 5.75;
 
-/// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line: without that stage ii
-/// of W1 and W2 takes a third more instructions.
+/// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
+/// without that stage ii of W1 and W2 takes a third more instructions.
 pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (nodes, plain) = (Nodes::new(cycle, points), Plain::new(cycle));
     let p = [cycle.ego.x, cycle.ego.y];
     let aside = nodes.others(points).iter().enumerate().find_map(|(index, point)| {
         let q = minus([point.x, point.y], p);
-        let is_open = !plain.is_within(q, q);
-        let at = Vector::new(point.x, point.y);
-        is_open
-            .then(|| failure(cycle, &Times::new(cycle), at))
-            .flatten()
-            .map(|it| it.at_point(index))
+        if plain.is_within(q, q) {
+            return None;
+        }
+        let found = failure(cycle, &Times::new(cycle), Vector::new(point.x, point.y));
+        found.map(|witness| witness.at_point(index))
     });
     if aside.is_some() {
         return aside;
@@ -45,8 +44,10 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
             plain.is_within(from, to)
         };
         piece.first_place(is_within, |place| {
-            let is_p = place.number == 0;
-            let found = if is_p { None } else { failure(cycle, &path.times, place.pose.at) };
+            if place.number == 0 {
+                return None;
+            }
+            let found = failure(cycle, &path.times, place.pose.at);
             found.map(|witness| witness.at_point(place.point(points.len())))
         })
     })

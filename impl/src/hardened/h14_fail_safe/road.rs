@@ -8,7 +8,7 @@ use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
-use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, triangles};
 use crate::stages::llcc::sweep::minus;
 
 /// What plain doubles leave open, m: places err by less than 2^-20 m in them.
@@ -17,8 +17,7 @@ const MARGIN: f64 = 1e-6;
 /// So long is what is looked at in plain doubles at least, m: about from place to place.
 const SHORTEST: f64 = 0.25;
 
-/// The first place that is not certainly in the corridor. Most paths are told line by line: without that stage ii of
-/// W1 and W2 takes twice as many instructions.
+/// The first place that is not certainly in the corridor. Of most paths plain doubles tell line by line that there is none.
 pub(crate) fn road_failure(
     cycle: &Cycle<'_>,
     route: IndexedRoute<'_, '_>,
@@ -103,13 +102,8 @@ impl IndexedRoute<'_, '_> {
 
 type Point = [f64; 2];
 
-/// Those between two cross sections (S2-02).
-const fn triangles(a: &CrossSection, b: &CrossSection) -> [[Point; 3]; 2] {
-    [[a.left, a.right, b.right], [a.left, b.right, b.left]]
-}
-
-/// The corners of these triangles, from a common one to the other and back. What is on the inner side of all four sides is in one
-/// of the triangles, on whichever side of the common one it is.
+/// The corners of the triangles of a pair, from a common one to the other and back. What is on the inner side of all
+/// four sides is in one of the triangles, on whichever side of the common one it is.
 const fn of_pair(a: &CrossSection, b: &CrossSection) -> [Point; 4] {
     [a.left, a.right, b.right, b.left]
 }

@@ -70,8 +70,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let found = candidates(self.index, self.pairs(), q, 0.0).find(|&index| {
             // S2-02
             self.pair(index).is_some_and(|(a, b)| {
-                in_triangle([a.left, a.right, b.right], q)
-                    || in_triangle([a.left, b.right, b.left], q)
+                triangles(a, b).into_iter().any(|triangle| in_triangle(triangle, q))
             })
         });
         *hint = found.unwrap_or(*hint);
@@ -187,6 +186,11 @@ pub(crate) fn apart(segment: Segment, q: [f64; 2]) -> f64 {
     let dx = larger(smaller(ax, bx) - x, x - larger(ax, bx));
     let dy = larger(smaller(ay, by) - y, y - larger(ay, by));
     larger(larger(dx, dy), 0.0) * (1.0 - 1e-15)
+}
+
+/// The triangles of the corridor between two cross sections (S2-02).
+pub(crate) const fn triangles(a: &CrossSection, b: &CrossSection) -> [[[f64; 2]; 3]; 2] {
+    [[a.left, a.right, b.right], [a.left, b.right, b.left]]
 }
 
 /// Whether the point is in front of the line through the boundaries, up to rounding.
