@@ -92,9 +92,9 @@ impl IndexedRoute<'_, '_> {
         let q = [place.x.value(), place.y.value()];
         self.pairs_around(q, MARGIN).find(|&at| {
             self.pair(at).is_some_and(|(a, b)| {
-                hold(&of_pair(a, b), place)
-                    || self.after(at).is_some_and(|c| hold(&across(a, b, c), place))
-                    || triangles(a, b).iter().any(|triangle| hold(triangle, place))
+                enclose(&of_pair(a, b), place)
+                    || self.after(at).is_some_and(|c| enclose(&across(a, b, c), place))
+                    || triangles(a, b).iter().any(|triangle| enclose(triangle, place))
             })
         })
     }
@@ -120,7 +120,7 @@ fn sides<const N: usize>(corners: &[Point; N]) -> impl Iterator<Item = [Point; 2
 
 /// Whether the place certainly is on the inner side of all sides. MARGIN-17: nothing is in triangles that turn
 /// differently, or have no area.
-fn hold<const N: usize>(corners: &[Point; N], place: Vector) -> bool {
+fn enclose<const N: usize>(corners: &[Point; N], place: Vector) -> bool {
     let q = [place.x.value(), place.y.value()];
     let is_beside = |side: Ordering| sides(corners).any(|it| sign(it, q) == side);
     if is_beside(Less) && is_beside(Greater) {
