@@ -8,7 +8,7 @@ use super::tree::Tree;
 /// Of each page with stamps the sources that its tables depend on.
 const SOURCES: [(&str, &str); 7] = [
     ("docs/configuration.md", "impl/src benches/src"),
-    ("docs/conformance.md", "model/src lab/conform/src examples/conformance vectors"),
+    ("docs/conformance.md", "model/src lab/conform/src examples/conformance"),
     ("docs/coverage.md", "impl capi model/src props records/src vectors"),
     ("docs/drives.md", "impl/src lab/drives/src lab/sim/src"),
     ("docs/embedded.md", "impl/src capi/src benches/src"),
@@ -16,14 +16,18 @@ const SOURCES: [(&str, &str); 7] = [
     ("docs/speed.md", "impl/src benches/src"),
 ];
 
+/// What a stamp depends on besides, by words before it: random cases are drawn anew, and know no vector.
+const BESIDES: (&str, &str) = ("The vectors: ", "vectors");
+
 /// Page and line of each stamp, its commit, and whether the sources were changed then.
 fn stamps(tree: &Tree) -> Vec<(String, &str, bool)> {
     let pages = tree.ending(".md").flat_map(|(page, text)| {
         text.lines().enumerate().filter_map(move |(number, line)| {
             let (commit, rest) = line.split_once("ommit ")?.1.split_at_checked(10)?;
             let has_changes = rest.starts_with(" with changes");
+            let besides = if line.starts_with(BESIDES.0) { BESIDES.1 } else { "" };
             let is_commit = commit.bytes().all(|it| it.is_ascii_hexdigit());
-            is_commit.then(|| (format!("{page}:{}", number + 1), commit, has_changes))
+            is_commit.then(|| (format!("{page}:{}:{besides}", number + 1), commit, has_changes))
         })
     });
     pages.collect()
@@ -66,7 +70,9 @@ pub fn old(tree: &Tree, root: &Path) -> Vec<String> {
             let sources = ["diff", "--quiet", commit, "--", it, ":!*.md"];
             git(&sources).is_ok_and(|it| !it.status.success())
         };
-        let changed: Vec<&str> = sources(&place)?.split(' ').filter(is_new).collect();
+        let besides = place.rsplit(':').next().unwrap_or_default();
+        let all = sources(&place)?.split(' ').chain(besides.split_whitespace());
+        let changed: Vec<&str> = all.filter(is_new).collect();
         (!changed.is_empty()).then(|| format!("{place}: since {commit}: {}", changed.join(", ")))
     };
     stamps(tree).into_iter().filter_map(of).collect()
