@@ -67,10 +67,6 @@ const ELSEWHERE: &Exceptions = &[("exploration/exploration.json", "`mufasa explo
 const TWICE: &Exceptions =
     &[("model/src/stages/llcc.rs", "the paper's name of the check, which is this function")];
 
-/// Commits with changes with which a table was measured.
-const UNCLEAN: &Exceptions =
-    &[("391c44e709", "seeded bugs of the paper profile: half an hour on two free cores")];
-
 /// Fails with everything that was found, and with the exceptions that nothing needed.
 fn judge(found: &[(String, String)], exceptions: &Exceptions) {
     let mut wrong = Vec::new();
@@ -235,7 +231,7 @@ fn branch_coverage_of_conditions_is_mc_dc() {
 /// A figure whose sources nobody has is no evidence.
 #[test]
 fn measured_tables_are_of_clean_commits() {
-    judge(&stamps::wrong(&Tree::here()), UNCLEAN);
+    judge(&stamps::wrong(&Tree::here()), &[]);
 }
 
 /// A note, since most commits touch some of them; with `MUFASA_RELEASE=1` an error. Not captured, to be seen.

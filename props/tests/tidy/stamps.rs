@@ -27,7 +27,7 @@ fn stamps(tree: &Tree) -> Vec<(String, &str, bool)> {
             let has_changes = rest.starts_with(" with changes");
             let besides = if line.starts_with(BESIDES.0) { BESIDES.1 } else { "" };
             let is_commit = commit.bytes().all(|it| it.is_ascii_hexdigit());
-            is_commit.then(|| (format!("{page}:{}:{besides}", number + 1), commit, has_changes))
+            is_commit.then(|| (format!("{page}:{} {besides}", number + 1), commit, has_changes))
         })
     });
     pages.collect()
@@ -70,8 +70,8 @@ pub fn old(tree: &Tree, root: &Path) -> Vec<String> {
             let sources = ["diff", "--quiet", commit, "--", it, ":!*.md"];
             git(&sources).is_ok_and(|it| !it.status.success())
         };
-        let besides = place.rsplit(':').next().unwrap_or_default();
-        let all = sources(&place)?.split(' ').chain(besides.split_whitespace());
+        let (place, besides) = place.split_once(' ')?;
+        let all = sources(place)?.split(' ').chain(besides.split_whitespace());
         let changed: Vec<&str> = all.filter(is_new).collect();
         (!changed.is_empty()).then(|| format!("{place}: since {commit}: {}", changed.join(", ")))
     };
