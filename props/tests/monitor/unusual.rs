@@ -90,6 +90,16 @@ fn a_setting_that_no_vehicle_has_is_refused_unless_it_is_named() {
     assert_eq!(ranges, table());
 }
 
+/// DOM-02: the default of `tau` is the double nearest to three periods and 0.1 s.
+#[test]
+fn the_default_of_tau_is_the_nearest_double() {
+    for period in 1..300 {
+        let tau = Settings::new(Duration::from_millis(period)).stages.tau;
+        let decimal = format!("0.{:03}", 3 * period + 100);
+        assert_eq!(tau, decimal.parse::<f64>().expect("a number"), "{decimal}");
+    }
+}
+
 /// IMPL-14: the bounds themselves are usual, as are the defaults in both profiles.
 #[test]
 fn bounds_and_defaults_are_usual() {
