@@ -180,6 +180,24 @@ fn the_readme_has_the_figures_of_coverage() {
     }
 }
 
+/// Of the same drives the table has counts for each `tau`.
+#[test]
+fn the_readme_has_the_shares_of_availability() {
+    let tree = Tree::here();
+    let count = |start: &str, cell: usize| -> f64 {
+        let line = tree.0["docs/drives.md"].lines().find(|it| it.starts_with(start));
+        let number = line.and_then(|it| it.split(" | ").nth(cell)).and_then(|it| it.parse().ok());
+        number.unwrap_or_else(|| panic!("{start}"))
+    };
+    let readme = tree.0["README.md"].split_whitespace().collect::<Vec<_>>().join(" ");
+    let all = count("| from 0.8 s on | ", 3);
+    assert!(readme.contains(&format!("Of {all} clean cycles")), "{all}");
+    for (tau, words) in [("0.1", "with tau 0.1 s"), ("0.25", "with 0.25 s")] {
+        let share = 100.0 * count(&format!("| {tau} | "), 3) / all;
+        assert!(readme.contains(&format!("{share:.1} % {words}")), "{share}");
+    }
+}
+
 /// Of the line of a page that begins so the counts with this share.
 fn share(page: &str, start: &str, percent: &str) -> String {
     let line = page.lines().find(|it| it.starts_with(start)).unwrap_or_default();

@@ -9,12 +9,16 @@ use super::tree::Tree;
 const SOURCES: [(&str, &str); 7] = [
     ("docs/configuration.md", "impl/src benches/src"),
     ("docs/conformance.md", "model/src lab/conform/src examples/conformance"),
-    ("docs/coverage.md", "impl capi model/src props records/src vectors"),
+    // The other tests of props execute no code of a vehicle.
+    ("docs/coverage.md", COVERED),
     ("docs/drives.md", "impl/src lab/drives/src lab/sim/src"),
     ("docs/embedded.md", "impl/src capi/src benches/src"),
     ("docs/link.md", "impl/src lab/link/src"),
     ("docs/speed.md", "impl/src benches/src"),
 ];
+
+const COVERED: &str = "impl capi model/src props/src props/tests/monitor props/tests/offloading \
+                       props/tests/stages props/tests/vectors.rs records/src vectors";
 
 /// What a stamp depends on besides, by words before it: random cases are drawn anew, and know no vector.
 const BESIDES: (&str, &str) = ("The vectors: ", "vectors");
@@ -51,6 +55,9 @@ pub fn wrong(tree: &Tree) -> Vec<(String, String)> {
             wrong.push((page(), format!("{place}: SOURCES does not say of what")));
         }
     }
+    if tree.0.get("docs/conformance.md").is_some_and(|it| !it.contains(BESIDES.0)) {
+        wrong.push((BESIDES.0.to_owned(), "no stamp depends on vectors".to_owned()));
+    }
     let is_there = |page: &str| found.iter().any(|it| it.0.starts_with(&format!("{page}:")));
     let none = SOURCES.iter().filter(|(page, _)| !is_there(page));
     wrong.extend(none.map(|(page, _)| ((*page).to_owned(), "has no stamp any more".to_owned())));
@@ -81,7 +88,8 @@ pub fn old(tree: &Tree, root: &Path) -> Vec<String> {
 #[test]
 fn a_stamp_that_says_too_little_is_seen() {
     let of = |text: &str, page: &str| {
-        let pages = SOURCES.map(|(it, _)| (it.to_owned(), "commit 0123456789, rustc\n".to_owned()));
+        let pages = SOURCES
+            .map(|(it, _)| (it.to_owned(), "The vectors: commit 0123456789, rustc\n".to_owned()));
         let more = [(page.to_owned(), text.to_owned())];
         Tree(pages.into_iter().chain(more).collect())
     };
@@ -90,6 +98,7 @@ fn a_stamp_that_says_too_little_is_seen() {
     assert_eq!((wrong(&changed).len(), stamps(&changed)[0].1), (1, "0123456789"));
     assert_eq!(wrong(&of("It may commit everything.", page)).len(), 1, "no stamp");
     assert_eq!(wrong(&of("Commit 0123456789.", "docs/b.md")).len(), 1, "no sources");
+    assert_eq!(wrong(&of("commit 0123456789", "docs/conformance.md")).len(), 1, "no vectors");
     let tree = of("1 (commit 0123456789)", page);
     assert_eq!(wrong(&tree), []);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
