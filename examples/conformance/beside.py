@@ -68,7 +68,7 @@ class Beside:
     def leads_along_the_route(self):
         """Whether the path bends as the route does, and has no place beyond an end."""
         bends = all(
-            abs(cross(self.ego, place.heading)) <= 0.05 + float(place.way) / 30 - EPS
+            abs(cross(self.ego, place.heading)) <= 0.05 + float(place.progress) / 30 - EPS
             for place in self.places)
         return bends and all(self.is_along_the_route(*centre) for centre in self.centres)
 

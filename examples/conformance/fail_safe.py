@@ -20,7 +20,8 @@ from stopping import Stop, between, displacement
 class Place:
     x: Fraction
     y: Fraction
-    way: Fraction
+    progress: Fraction
+    length: Fraction
     heading: dict
 
     @cached_property
@@ -42,7 +43,7 @@ def parted(cycle):
 
 
 def pieces(cycle):
-    """Of each piece: from one place to the next (x, y, way), how often, and the headings on the
+    """Of each piece: from one place to the next (x, y, length), how often, and the headings on the
     piece and at its end. The last one goes straight on without an end."""
     ego = cycle["ego"]
     d = min(Fraction(1, 4), Fraction(ego["length"]))
@@ -50,24 +51,34 @@ def pieces(cycle):
     for a, b in zip(nodes, nodes[1:]):
         x, y = displacement(a, b)
         n = max(1, math.ceil(abs(x) / d), math.ceil(abs(y) / d))
-        yield (x / n, y / n, max(ahead(x, y, a), 0) / n), range(1, n + 1), a, b
+        length = abs(ahead(x, y, a)) + abs(ahead(y, -x, a))
+        yield (x / n, y / n, length / n), range(1, n + 1), a, b
     end = nodes[-1]
     yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), itertools.count(1), end, end
 
 
+def greatest_length(s_stop):
+    """Of the path up to a place that is within reach."""
+    return 2 * s_stop + 1
+
+
 def path(cycle, s_stop):
-    """The places, the last one where the way is s_stop."""
-    places = [Place(Fraction(0), Fraction(0), Fraction(0), cycle["ego"])]
+    """The places, the last one where the progress is s_stop; or the first one that is too far along
+    the path, which is not within reach (nobody asks for its heading)."""
+    ego = cycle["ego"]
+    places = [Place(Fraction(0), Fraction(0), Fraction(0), Fraction(0), ego)]
     for step, numbers, heading, end in pieces(cycle):
         node = places[-1]
         for k in numbers:
-            o, x = places[-1], node.x + k * step[0]
-            y, way = node.y + k * step[1], node.way + k * step[2]
-            if way > s_stop:
-                part = (s_stop - o.way) / (way - o.way)
+            o, x, y = places[-1], node.x + k * step[0], node.y + k * step[1]
+            progress, length = ahead(x, y, ego), node.length + k * step[2]
+            if progress > s_stop:
+                part = (s_stop - o.progress) / (progress - o.progress)
                 x, y = o.x + part * (x - o.x), o.y + part * (y - o.y)
-                return [*places, Place(x, y, s_stop, heading)]
-            places.append(Place(x, y, way, heading))
+                return [*places, Place(x, y, s_stop, o.length + part * step[2], heading)]
+            places.append(Place(x, y, progress, length, heading))
+            if length > greatest_length(s_stop):
+                return places
         places[-1].heading = end
 
 
@@ -174,7 +185,8 @@ class FailSafe:
         return path(self.cycle, self.stop.s_stop)
 
     def within_reach(self):
-        """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once."""
+        """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once;
+        and the path goes on, neither aside nor back for long."""
         aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
         for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
             f = max(ahead(x, y, self.ego), 0)
@@ -182,15 +194,16 @@ class FailSafe:
             if f < self.stop.s_b and (
                     far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
                 return False
-        return True
+        return self.places[-1].length <= greatest_length(self.stop.s_stop) - EPS
 
     def windows(self):
         """Of each place its pose and its window; no end where the CAV may stand."""
         befores, afters = [None, *self.places], [*self.places[1:], None]
         for before, place, after in zip(befores, self.places, afters):
-            begins = self.stop.first(before.way) if before else 0.0
-            moves_on = after is not None and after.way < self.stop.s_b
-            yield place.pose, begins, self.stop.last(after.way) if moves_on else None
+            least = min(it.progress for it in (before, place, after) if it is not None)
+            begins = self.stop.first(max(least, 0))
+            moves_on = after is not None and after.length < self.stop.s_b
+            yield place.pose, begins, self.stop.last(after.length) if moves_on else None
 
     @cached_property
     def a(self):

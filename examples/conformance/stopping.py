@@ -1,7 +1,7 @@
 """How far the CAV needs to stop, and when it is where: spec/hardened/H-14.md#requirements-windows.
 
-Times change without bound with the way where the CAV comes to stand. So ways are fractions, and
-only the square root is rounded.
+Times change without bound with the distance where the CAV comes to stand. So distances are
+fractions, and only the square root is rounded.
 """
 import math
 from fractions import Fraction
@@ -45,12 +45,12 @@ class Stop:
         """How long the CAV still brakes when it has so far to go."""
         return math.sqrt(2 * max(rest, 0) / self.a_b)
 
-    def first(self, way):
-        """The earliest time at a way."""
-        if way > self.s_tau:
-            return self.T - self.braking(self.s_stop - way)
-        return (math.sqrt(self.v**2 + 2 * self.a_max * way) - float(self.v)) / float(self.a_max)
+    def first(self, f):
+        """The earliest time at which it can have driven f."""
+        if f > self.s_tau:
+            return self.T - self.braking(self.s_stop - f)
+        return (math.sqrt(self.v**2 + 2 * self.a_max * f) - float(self.v)) / float(self.a_max)
 
-    def last(self, way):
-        """The latest time at a way below s_b."""
-        return float(self.v / self.a_b) - self.braking(self.s_b - way)
+    def last(self, f):
+        """The latest time at which it has driven no more than f, below s_b."""
+        return float(self.v / self.a_b) - self.braking(self.s_b - f)

@@ -2,7 +2,7 @@
 //! monitor compares with the time that it is given.
 
 use crate::hardened::h14_fail_safe::path::Nodes;
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::Cycle;
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -39,7 +39,7 @@ pub struct Counts {
     pub disk_rows: u32,
     /// Rows of cells that the CAV is long.
     pub cav_rows: u32,
-    /// Rows of cells that the way to `s_stop` is long.
+    /// Rows of cells that the path to `s_stop` is long at most.
     pub way_rows: u32,
 }
 
@@ -72,7 +72,7 @@ impl Counts {
             places: if looks_along(profile) { 448 } else { 0 },
             disk_rows: 18,
             cav_rows: 31,
-            way_rows: 520,
+            way_rows: 1052,
         }
     }
 
@@ -103,7 +103,7 @@ impl Counts {
             let rows = |metres: f64| whole(metres / grid.resolution + 6.0);
             counts.disk_rows = rows(across);
             counts.cav_rows = rows(ego.length);
-            counts.way_rows = rows(Times::<f64>::new(cycle).s_stop);
+            counts.way_rows = rows(longest(Times::<f64>::new(cycle).s_stop));
         }
         counts
     }

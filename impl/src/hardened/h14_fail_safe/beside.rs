@@ -14,11 +14,12 @@ use crate::numbers::range::{larger, smaller};
 use crate::numbers::rectangle::Rectangle;
 use crate::numbers::rounding::Real;
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
+use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::{footprint, vector};
 
 /// More than the plain distances here err, m.
 const ERROR: f64 = 1e-4;
-/// What the sine of the heading may be, and more for each m of the way: a path that bends.
+/// What the sine of the heading may be, and more for each m of progress: a path that bends.
 pub(super) const BEND: f64 = 0.05;
 pub(super) const RADIUS: f64 = 30.0;
 /// The same radius for who does not come towards the CAV, m.
@@ -149,7 +150,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         let ego = &self.path.nodes.cycle.ego;
         let (h, h_k) = (vector([ego.cos, ego.sin]), vector(place.pose.heading));
         // H-14.41
-        let most = Real::new(BEND) + place.way.over(Real::new(RADIUS));
+        let most = Real::new(BEND) + place.progress.over(Real::new(RADIUS));
         let centre = footprint(ego, &place.pose).centre;
         if !h.cross(h_k).abs().certainly_at_most(most) || !self.route.certainly_has_beside(centre) {
             return None;
@@ -206,7 +207,7 @@ impl Lane {
                 };
                 lane.add(
                     &path.nodes.cycle.ego,
-                    (place, piece.heading()),
+                    [place, piece.heading()],
                     route,
                     (aside, &mut before),
                 );
@@ -218,16 +219,17 @@ impl Lane {
         lane
     }
 
-    /// With one more place: x, y and way, and the heading. `before`: how far the one before reaches.
+    /// With one more place, and the heading. `before`: how far the one before reaches.
     fn add(
         &mut self,
         ego: &Ego,
-        ([x, y, way], [cos, sin]): ([f64; 3], [f64; 2]),
+        [[x, y], [cos, sin]]: [[f64; 2]; 2],
         route: IndexedRoute<'_, '_>,
         (aside, before): (Real, &mut [f64; 2]),
     ) {
         let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
-        let more = (ego.cos * sin - ego.sin * cos).abs() - BEND - way / RADIUS;
+        let [progress, _] = split([ego.cos, ego.sin], minus([x, y], [ego.x, ego.y]));
+        let more = (ego.cos * sin - ego.sin * cos).abs() - BEND - progress / RADIUS;
         let bends_little = if more.abs() > ERROR { Some(more < 0.0) } else { None };
         self.is_open = both(self.is_open, both(bends_little, route.plainly_has_beside(centre)));
         let (away, near) = route.about(centre, self.hint);

@@ -16,8 +16,9 @@ use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
 const ERROR: f64 = 1e-6;
 /// The same, of what is long.
 const ROUGH: f64 = 1e-12;
-/// No two places that follow each other are farther apart, m.
-pub(super) const APART: f64 = 0.4;
+/// No two places that follow each other are farther apart, m, and no length grows by more from one to the next.
+const APART: f64 = 0.4;
+const LONGER: f64 = 0.6;
 
 /// What decides when an object may meet the CAV, s.
 #[derive(Clone, Copy, Debug)]
@@ -94,14 +95,19 @@ pub(super) struct Cover {
 }
 
 impl Cover {
-    /// Of nothing, yet. `ways`: the least and the greatest.
-    pub(super) fn new(axis: [f64; 2], [from, to]: [f64; 2], times: &Times<f64>) -> Self {
-        let round = |way: f64| way * ROUGH + ERROR;
-        let start = times.first(larger(from - round(from), 0.0)) * (1.0 - 1e-9) - 1e-9;
-        let to = to + round(to);
+    /// Of nothing, yet, at any time from now on.
+    pub(super) const fn new(axis: [f64; 2]) -> Self {
+        Self { axis, ranges: [EMPTY; 2], start: 0.0, end: None }
+    }
+
+    /// With the windows of places of that least progress and that greatest length.
+    pub(super) fn lasts_for(&mut self, [progress, length]: [f64; 2], times: &Times<f64>) {
+        let round = |it: f64| it.abs() * ROUGH + ERROR;
+        let from = larger(progress - APART - round(progress), 0.0);
+        self.start = times.first(from) * (1.0 - 1e-9) - 1e-9;
+        let to = length + LONGER + round(length);
         let passes = to < times.s_b * (1.0 - ROUGH);
-        let end = passes.then(|| times.last(to) * (1.0 + 1e-9) + 1e-9);
-        Self { axis, ranges: [EMPTY; 2], start, end }
+        self.end = passes.then(|| times.last(to) * (1.0 + 1e-9) + 1e-9);
     }
 
     /// With the CAV at two places and between, of that heading.
@@ -194,6 +200,9 @@ pub(super) struct Stretch {
     pub(super) cover: Cover,
     /// On which lines they are: the first and the last one.
     pub(super) lines: [usize; 2],
+    /// The least progress, and the greatest length, m.
+    from: f64,
+    to: f64,
 }
 
 /// All places, and stretches of them.
@@ -211,42 +220,41 @@ pub(super) const MOST: usize = 16;
 impl Covers {
     /// Of a path, with the CAV so large.
     pub(super) fn new(ego: &Ego, path: Nodes<'_, '_>, times: &Times<f64>) -> Self {
-        let end = times.s_stop * (1.0 + 1e-9) + ERROR;
-        let all = Cover::new([ego.cos, ego.sin], [0.0, end], times);
-        let mut covers = Self {
-            all,
-            stretches: [Stretch { cover: all, lines: [0; 2] }; MOST],
-            count: 0,
-            upright: [EMPTY; 2],
-        };
-        let length = larger(end / f64::from(u8::try_from(MOST).unwrap_or(u8::MAX)), 1.0);
+        let h = [ego.cos, ego.sin];
+        let all = Cover::new(h);
+        let none = Stretch { cover: all, lines: [0; 2], from: f64::MAX, to: 0.0 };
+        let mut covers = Self { all, stretches: [none; MOST], count: 0, upright: [EMPTY; 2] };
+        let part = times.s_stop / f64::from(u8::try_from(MOST).unwrap_or(u8::MAX));
         let mut to = 0.0;
         for line in path.lines().enumerate() {
-            covers.add_line(ego, line, (&mut to, length), times);
+            covers.add_line(ego, line, (&mut to, larger(part, 1.0)));
+        }
+        for Stretch { cover, from, to, .. } in covers.stretches.iter_mut().take(covers.count) {
+            cover.lasts_for([*from, *to], times);
         }
         covers
     }
 
-    /// Cut where stretches of that length end; the latest one ends at that way.
+    /// Cut where stretches of that length end; the latest one ends at that length of the path.
     fn add_line(
         &mut self,
         ego: &Ego,
-        (number, Line { from, to, heading, way: start, advance }): (usize, Line),
-        (end, length): (&mut f64, f64),
-        times: &Times<f64>,
+        (number, Line { from, to, heading, length: start, more }): (usize, Line),
+        (end, part): (&mut f64, f64),
     ) {
-        let (u, next) = (minus(to, from), start + advance);
-        let at = |way: f64| {
-            let share = smaller((way - start) / advance, 1.0);
+        let (h, u, next) = ([ego.cos, ego.sin], minus(to, from), start + more);
+        let at = |length: f64| {
+            let share = smaller((length - start) / more, 1.0);
             [from[0] + u[0] * share, from[1] + u[1] * share]
         };
-        let (mut place, mut way) = (from, start);
+        let (mut place, mut length) = (from, start);
         loop {
-            if self.count == 0 || way >= *end && self.count < MOST {
-                *end += length;
-                let cover = Cover::new(heading, [*end - length - APART, *end + APART], times);
-                let stretch = Stretch { cover, lines: [number; 2] };
-                self.stretches.iter_mut().skip(self.count).take(1).for_each(|it| *it = stretch);
+            if self.count == 0 || length >= *end && self.count < MOST {
+                *end += part;
+                let cover = Cover::new(heading);
+                self.stretches.iter_mut().skip(self.count).take(1).for_each(|it| {
+                    (it.cover, it.lines) = (cover, [number; 2]);
+                });
                 self.count = self.count.saturating_add(1);
             }
             let is_last = self.count >= MOST || next <= *end;
@@ -255,13 +263,16 @@ impl Covers {
             for stretch in self.stretches.iter_mut().skip(latest).take(1) {
                 stretch.cover.add(ego, [place, stop], heading);
                 stretch.lines[1] = number;
+                let [here, there] = [place, stop].map(|at| split(h, at)[0]);
+                stretch.from = smaller(stretch.from, smaller(here, there));
+                stretch.to = if is_last { next } else { *end };
             }
             self.all.add(ego, [place, stop], heading);
             self.extend_upright(ego, [place, stop], heading);
             if is_last {
                 return;
             }
-            (place, way) = (stop, *end);
+            (place, length) = (stop, *end);
         }
     }
 

@@ -7,7 +7,7 @@ use core::cell::LazyCell;
 
 use crate::cycle::steps::{BOX, MOTION, PIECE, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
-use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
+use crate::hardened::h14_fail_safe::cover::{Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
 use crate::hardened::h14_fail_safe::spot::Spot;
@@ -19,15 +19,15 @@ use crate::numbers::rectangle::{Rectangle, certainly_met};
 use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
-use crate::stages::llcc::sweep::{MovingRectangle, minus};
+use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
 use crate::stages::llcc::{Pose, footprint, vector};
 
-/// Where an object meets the CAV: the number of the place, its way and `s_stop` in m.
+/// Where an object meets the CAV: the number of the place, its progress and `s_stop` in m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Met {
     pub(super) number: i64,
     pub(super) point: usize,
-    pub(super) ways: [f64; 2],
+    pub(super) compared: [f64; 2],
 }
 
 /// The CAV on its path.
@@ -199,9 +199,11 @@ impl<'c, 'a> Places<'c, 'a> {
     /// The box around some places of a piece.
     fn run(&self, piece: &Piece, run: [i64; 2], clock: &Clock) -> Cover {
         let ego = &self.ego;
-        let [[x, y, way], [to_x, to_y, to]] = piece.between(run, [ego.x, ego.y]);
-        let ways = [larger(way - APART, 0.0), to + APART];
-        let mut cover = Cover::new(piece.heading(), ways, &clock.times);
+        let [[x, y, _], [to_x, to_y, length]] = piece.between(run, [ego.x, ego.y]);
+        let h = [self.cycle().ego.cos, self.cycle().ego.sin];
+        let [from, to] = [[x, y], [to_x, to_y]].map(|at| split(h, at)[0]);
+        let mut cover = Cover::new(piece.heading());
+        cover.lasts_for([smaller(from, to), length], &clock.times);
         cover.add(ego, [[x, y], [to_x, to_y]], piece.heading());
         cover
     }
@@ -216,7 +218,7 @@ impl<'c, 'a> Places<'c, 'a> {
     ) -> bool {
         let times = &self.path.times;
         // H-14.45; H-14.11
-        let (spot, start) = (Spot::new(&self.ego, place), times.plainly_first(place.before));
+        let (spot, start) = (Spot::new(&self.ego, place), times.plainly_first(place.least));
         let meets = |end: f64| !spot.is_missed(object, [start, end], clock);
         // H-14.12
         if let Some(after) = place.after.filter(|after| after.certainly_below(times.s_b)) {
@@ -229,8 +231,8 @@ impl<'c, 'a> Places<'c, 'a> {
 
     fn met(&self, place: &Place) -> Met {
         // H-14.50
-        let ways = [place.way, self.path.times.s_stop].map(Real::value);
-        Met { number: place.number, point: place.point(self.points), ways }
+        let compared = [place.progress, self.path.times.s_stop].map(Real::value);
+        Met { number: place.number, point: place.point(self.points), compared }
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.

@@ -111,9 +111,10 @@ impl Motions<'_, '_, '_> {
         if is_over || !self.meeting.may_be_met(motion) || !counts(self) {
             return;
         }
-        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end, &self.lists.work)
+        if let Some(Met { number, point, compared }) =
+            self.meeting.first(motion, end, &self.lists.work)
         {
-            let found = Witness::of(Rule::FailSafe, ways).at_point(point);
+            let found = Witness::of(Rule::FailSafe, compared).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });
         }
     }

@@ -7,13 +7,13 @@
 use core::cmp::Ordering;
 use core::iter;
 
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::exact::{Product, compare};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
-use crate::stages::llcc::sweep::minus;
+use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::{Pose, vector};
 
 /// How far ahead the first point has to be that is a node, m.
@@ -48,23 +48,27 @@ impl<'c, 'a> Nodes<'c, 'a> {
     /// it (H-14.56).
     pub(crate) fn lines(self) -> impl Iterator<Item = Line> + Clone {
         let ego = &self.cycle.ego;
+        let h = [ego.cos, ego.sin];
         let s_stop = Times::<f64>::new(self.cycle).s_stop * (1.0 + 1e-9) + 1e-3;
+        let longest = longest(s_stop);
         let mut nodes = self.points.iter();
-        let mut next = Some(([0.0; 2], [ego.cos, ego.sin], 0.0));
+        let mut next = Some(([0.0; 2], h, 0.0));
         iter::from_fn(move || {
-            let (from, heading, way) = next.take()?;
+            let (from, heading, length) = next.take()?;
             let Some(node) = nodes.next() else {
-                let left = larger(s_stop - way, 0.0);
-                let along = heading.map(|part| part * left);
-                let to = [from[0] + along[0], from[1] + along[1]];
-                return Some(Line { from, to, heading, way, advance: left });
+                let (rate, ahead) = (split(h, heading)[0], s_stop - split(h, from)[0]);
+                let left = longest - length;
+                let more = if rate * left > ahead { ahead / rate } else { left };
+                let [x, y] = heading.map(|part| part * more);
+                let to = [from[0] + x, from[1] + y];
+                return Some(Line { from, to, heading, length, more });
             };
             let to = [node.x - ego.x, node.y - ego.y];
-            let u = [to[0] - from[0], to[1] - from[1]];
-            let advance = larger(u[0] * heading[0] + u[1] * heading[1], 0.0);
-            let beyond = way + advance;
-            next = (beyond <= s_stop).then_some((to, [node.cos, node.sin], beyond));
-            Some(Line { from, to, heading, way, advance })
+            let [along, across] = split(heading, minus(to, from)).map(f64::abs);
+            let more = along + across;
+            let ends = split(h, to)[0] > s_stop || length + more > longest;
+            next = (!ends).then_some((to, [node.cos, node.sin], length + more));
+            Some(Line { from, to, heading, length, more })
         })
     }
 
@@ -72,8 +76,9 @@ impl<'c, 'a> Nodes<'c, 'a> {
     /// rounding leaves it open. What a piece costs by itself is within them.
     pub(crate) fn most_places(self) -> f64 {
         let places = |line: Line| {
-            let [x, y] = minus(line.to, line.from).map(f64::abs);
-            larger(larger(x, y), line.advance) / self.d + 5.0
+            let u = minus(line.to, line.from);
+            let ([x, y], [along, _]) = (u.map(f64::abs), split(line.heading, u));
+            larger(larger(x, y), along) / self.d + 5.0
         };
         self.lines().map(places).sum()
     }
@@ -95,8 +100,16 @@ impl<'c, 'a> Path<'c, 'a> {
     pub(crate) fn pieces(&self) -> Pieces<'a> {
         let Nodes { cycle, points, d } = self.nodes;
         let &Ego { x, y, cos, sin, .. } = &cycle.ego;
-        let next = Node { at: [x, y], heading: [cos, sin], way: Real::ZERO, before: None };
-        Pieces { next: Some(next), nodes: points, s_stop: self.times.s_stop, d, first: 0 }
+        let (at, heading) = ([x, y], [cos, sin]);
+        let next =
+            Node { at, heading, progress: Real::ZERO, length: Real::ZERO, before: Real::ZERO };
+        let ends = Ends {
+            p: at,
+            h: vector(heading),
+            s_stop: self.times.s_stop,
+            longest: longest(self.times.s_stop),
+        };
+        Pieces { next: Some(next), nodes: points, ends, d, first: 0 }
     }
 }
 
@@ -106,9 +119,9 @@ pub(crate) struct Line {
     pub(crate) from: [f64; 2],
     pub(crate) to: [f64; 2],
     pub(crate) heading: [f64; 2],
-    /// To where it begins, and how much of it is ahead, m.
-    pub(crate) way: f64,
-    pub(crate) advance: f64,
+    /// The length where it begins, and how much it adds to it, m.
+    pub(crate) length: f64,
+    pub(crate) more: f64,
 }
 
 /// Whether the point is more than 1/8 m ahead of the CAV (H-14.1); exact. Plain doubles err by less
@@ -129,18 +142,19 @@ fn is_ahead(ego: &Ego, point: &TrajectoryPoint) -> bool {
 struct Node {
     at: [f64; 2],
     heading: [f64; 2],
-    way: Real,
-    /// How the place before came to be: the way and the advance of the piece to the node, and as many
-    /// places as that took.
-    before: Option<(Real, Real, i64)>,
+    progress: Real,
+    length: Real,
+    /// The progress of the place before.
+    before: Real,
 }
 
-impl Node {
-    /// The way of the place before, m.
-    fn way_before(&self) -> Real {
-        self.before
-            .map_or(Real::ZERO, |(way, advance, n)| way + advance * share(n.saturating_sub(1), n))
-    }
+/// Where the list of places ends: where the progress from p on is `s_stop`, or behind the length that is the greatest.
+#[derive(Clone, Copy, Debug)]
+struct Ends {
+    p: [f64; 2],
+    h: Vector,
+    s_stop: Real,
+    longest: Real,
 }
 
 /// Place k of n on a piece: what part of it is behind.
@@ -153,7 +167,7 @@ fn share(k: i64, n: i64) -> Real {
 pub(crate) struct Pieces<'p> {
     next: Option<Node>,
     nodes: &'p [TrajectoryPoint],
-    s_stop: Real,
+    ends: Ends,
     d: f64,
     first: i64,
 }
@@ -164,7 +178,9 @@ pub(crate) struct Piece {
     node: Node,
     /// To the next node, or to the first place behind the last one.
     u: Vector,
-    advance: Real,
+    /// How much it adds to the progress and to the length, m.
+    gain: Real,
+    more: Real,
     /// As many places as that takes.
     n: i64,
     /// The number of the place at the node.
@@ -173,7 +189,7 @@ pub(crate) struct Piece {
     places: i64,
     /// Where the last of all is, if it is here: this times u from the node.
     end: Option<Real>,
-    s_stop: Real,
+    ends: Ends,
 }
 
 /// A place, and where the CAV has been before and is after.
@@ -182,10 +198,11 @@ pub(crate) struct Place {
     /// 0 is that of the CAV now.
     pub(crate) number: i64,
     pub(crate) pose: Pose,
-    pub(crate) way: Real,
-    /// Of the place before.
-    pub(crate) before: Real,
-    /// Of the place after, if there is one.
+    pub(crate) progress: Real,
+    /// The least progress of the place and its neighbours, from 0 on.
+    pub(crate) least: Real,
+    pub(crate) length: Real,
+    /// The length at the place after, if there is one.
     pub(crate) after: Option<Real>,
 }
 
@@ -203,34 +220,53 @@ impl Iterator for Pieces<'_> {
     /// node and what follows are there, too.
     fn next(&mut self) -> Option<Piece> {
         let node = self.next.take()?;
-        let Node { at, heading, way, .. } = node;
-        let (s_stop, d) = (self.s_stop, self.d);
+        let (Ends { p, h, s_stop, longest }, d, heading) =
+            (self.ends, self.d, vector(node.heading));
         let to = self.nodes.split_first();
-        let (u, n, advance) = match to {
+        // H-14.59
+        let (u, n, more) = match to {
             Some((to, _)) => {
-                let u = Vector::between(at, [to.x, to.y]);
-                // H-14.2, H-14.3
-                let n = steps(at[0], to.x, d).max(steps(at[1], to.y, d)).max(1);
-                (u, n, u.dot(vector(heading)).max(Real::ZERO))
+                let u = Vector::between(node.at, [to.x, to.y]);
+                // H-14.3
+                let n = steps(node.at[0], to.x, d).max(steps(node.at[1], to.y, d)).max(1);
+                (u, n, u.dot(heading).abs() + u.cross(heading).abs())
             }
             // H-14.5
-            None => (vector(heading).times(Real::new(d)), 1, Real::new(d)),
+            None => (heading.times(Real::new(d)), 1, Real::new(d)),
         };
-        let next = way + advance;
-        let ends = to.is_none() || !next.certainly_at_most(s_stop) && advance.magnitude() > 0.0;
+        // H-14.2
+        let gain = u.dot(h);
+        let progress = match to {
+            Some((to, _)) => Vector::between(p, [to.x, to.y]).dot(h),
+            None => node.progress + gain,
+        };
+        let (length, first) = (node.length + more, self.first);
         let mut piece =
-            Piece { node, u, advance, n, first: self.first, places: n, end: None, s_stop };
-        if ends {
+            Piece { node, u, gain, more, n, first, places: n, end: None, ends: self.ends };
+        let ends = to.is_none() || !progress.certainly_at_most(s_stop);
+        let most = if to.is_some() { n } else { i64::MAX };
+        if ends && gain.value() > 0.0 {
             // H-14.7
-            let share = (s_stop - way).over(advance);
-            let most = if to.is_some() { n } else { i64::MAX };
-            piece.places = piece.first_beyond(share).min(most);
+            let share = (s_stop - node.progress).over(gain);
+            piece.places =
+                piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
             piece.end = Some(if to.is_some() { within_unit(share) } else { share });
         }
-        if let Some((to, rest)) = to.filter(|_| !ends || next.possibly_at_most(s_stop)) {
+        let is_longest = to.is_none() || !length.certainly_at_most(longest);
+        if is_longest {
+            // H-14.60
+            let share = (longest - node.length).over(more);
+            let beyond = piece.first_with(share, 0, |k| longest.certainly_below(piece.length(k)));
+            let places = beyond.saturating_add(1);
+            if places <= piece.places || piece.end.is_none() && to.is_none() {
+                (piece.places, piece.end) = (places, None);
+                return Some(piece);
+            }
+        }
+        if let Some((to, rest)) = to.filter(|_| !ends || progress.possibly_at_most(s_stop)) {
             let (at, heading) = ([to.x, to.y], [to.cos, to.sin]);
-            let before = (way, advance, n);
-            self.next = Some(Node { at, heading, way: next, before: Some(before) });
+            let before = piece.progress(n.saturating_sub(1));
+            self.next = Some(Node { at, heading, progress, length, before });
             self.nodes = rest;
             self.first = self.first.saturating_add(piece.count());
         }
@@ -271,13 +307,12 @@ impl Piece {
         self.places.saturating_add(i64::from(self.end.is_some()))
     }
 
-    /// The least k >= 1 whose way is certainly above `s_stop`; `share` of u leads to that.
+    /// The least k from `least` on of which that holds; `share` of u leads to about there.
     #[allow(clippy::cast_possible_truncation, reason = "below 2^35, or a few more than there are")]
-    fn first_beyond(&self, share: Real) -> i64 {
+    fn first_with(&self, share: Real, least: i64, holds: impl Fn(i64) -> bool) -> i64 {
         let guess = libm::floor(share.value() * Real::integer(self.n).value()) as i64;
-        let mut near = guess.max(1)..=guess.saturating_add(2).max(1);
-        let found = near.find(|&k| self.s_stop.certainly_below(self.way(k)));
-        found.unwrap_or(guess.saturating_add(3).max(1))
+        let mut near = guess.max(least)..=guess.saturating_add(2).max(least);
+        near.find(|&k| holds(k)).unwrap_or(guess.saturating_add(3).max(least))
     }
 
     fn share(&self, k: i64) -> Real {
@@ -287,30 +322,38 @@ impl Piece {
         }
     }
 
-    /// The way of place k, but for the last one.
-    fn way(&self, k: i64) -> Real {
-        self.node.way + self.advance * share(k, self.n)
+    /// The progress of place k, except the last one.
+    fn progress(&self, k: i64) -> Real {
+        self.node.progress + self.gain * share(k, self.n)
+    }
+
+    /// The length at place k.
+    fn length(&self, k: i64) -> Real {
+        self.node.length + self.more * self.share(k)
     }
 
     /// Place k from the node on (H-14.4), the last one of all with the heading of its piece
     /// (H-14.8).
     pub(crate) fn place(&self, k: i64) -> Place {
-        let (after, is_last) = (k.saturating_add(1), self.end.is_some() && k >= self.places);
-        let ends_after = self.end.is_some() && after >= self.places;
-        let after = if ends_after { self.s_stop } else { self.way(after) };
+        let (next, s_stop) = (k.saturating_add(1), self.ends.s_stop);
+        let is_end = |k: i64| self.end.is_some() && k >= self.places;
+        let progress = |k: i64| if is_end(k) { s_stop } else { self.progress(k) };
+        let before = if k == 0 { self.node.before } else { progress(k.saturating_sub(1)) };
+        let (here, after) = (progress(k), progress(next));
         Place {
             number: self.first.saturating_add(k),
             pose: Pose {
                 at: vector(self.node.at) + self.u.times(self.share(k)),
                 heading: self.node.heading,
             },
-            way: if is_last { self.s_stop } else { self.way(k) },
-            before: if k == 0 { self.node.way_before() } else { self.way(k.saturating_sub(1)) },
-            after: (!is_last).then_some(after),
+            progress: here,
+            least: before.min(here).min(after).max(Real::ZERO),
+            length: self.length(k),
+            after: (!is_end(k)).then(|| self.length(next)),
         }
     }
 
-    /// Between which two places, x and y from another point, and way, all of these certainly are; in
+    /// Between which two places, x and y from another point, and length, all of these certainly are; in
     /// plain doubles. The last one is somewhere behind the one before.
     pub(crate) fn between(&self, [first, last]: [i64; 2], [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
         let first = first.min(self.places.saturating_sub(1)).max(0);
@@ -319,17 +362,16 @@ impl Piece {
             [
                 (self.node.at[0] - x) + self.u.x.value() * share,
                 (self.node.at[1] - y) + self.u.y.value() * share,
-                self.node.way.value() + self.advance.value() * share,
+                self.node.length.value() + self.more.value() * share,
             ]
         })
     }
 
-    /// Place k in plain doubles, x, y and way, if it is known so well.
-    pub(crate) fn plainly(&self, k: i64) -> Option<[f64; 3]> {
+    /// Place k in plain doubles, if it is known so well.
+    pub(crate) fn plainly(&self, k: i64) -> Option<[f64; 2]> {
         let (share, [x, y]) = (self.share(k), self.node.at);
         let at = |from: f64, by: Real| from + by.value() * share.value();
-        let way = at(self.node.way.value(), self.advance);
-        (share.off() < 1e-9).then(|| [at(x, self.u.x), at(y, self.u.y), way])
+        (share.off() < 1e-9).then(|| [at(x, self.u.x), at(y, self.u.y)])
     }
 
     pub(crate) const fn heading(&self) -> [f64; 2] {

@@ -1,7 +1,7 @@
 //! Whether the path is within reach (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::path::{Nodes, Path};
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -34,21 +34,30 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     if aside.is_some() {
         return aside;
     }
-    if nodes.lines().all(|line| plain.is_within(line.from, line.to)) {
+    if nodes
+        .lines()
+        .all(|it| plain.is_within(it.from, it.to) && plain.is_short(it.length + it.more))
+    {
         return None;
     }
     let path = Path::new(nodes);
     path.pieces().find_map(|piece| {
         let is_within = |run: [i64; 2]| {
-            let [from, to] = piece.between(run, p).map(|[x, y, _]| [x, y]);
-            plain.is_within(from, to)
+            let [[x, y, _], [to_x, to_y, length]] = piece.between(run, p);
+            plain.is_within([x, y], [to_x, to_y]) && plain.is_short(length)
         };
         piece.first_place(is_within, |place| {
             if place.number == 0 {
                 return None;
             }
             let found = failure(cycle, &path.times, place.pose.at);
-            found.map(|witness| witness.at_point(place.point(points.len())))
+            // H-14.61
+            let longest = longest(path.times.s_stop);
+            let witness = || Witness::of(Rule::Reach, [place.length, longest].map(Real::value));
+            let is_long = || !place.length.certainly_at_most(longest);
+            found
+                .or_else(|| is_long().then(witness))
+                .map(|witness| witness.at_point(place.point(points.len())))
         })
     })
 }
@@ -74,12 +83,19 @@ struct Plain {
     h: [f64; 2],
     v: f64,
     s_b: f64,
+    longest: f64,
 }
 
 impl Plain {
     fn new(cycle: &Cycle<'_>) -> Self {
         let s_b = s_b(&cycle.parameters, cycle.ego.speed);
-        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b }
+        let longest = longest(Times::<f64>::new(cycle).s_stop);
+        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b, longest }
+    }
+
+    /// Whether a length certainly is within the greatest.
+    fn is_short(&self, length: f64) -> bool {
+        length < self.longest * (1.0 - 1e-9) - 1e-6
     }
 
     /// Whether what is between two places certainly is: the distance is greatest at one of them, the

@@ -48,8 +48,8 @@ impl<N: Number> Times<N> {
         }
     }
 
-    /// The earliest time at way f, or less: where it is open which of the two formulas holds, the one
-    /// for less way is below the other one. In plain doubles up to 1e-9 s more.
+    /// The earliest time at f, or less: where it is open which of the two formulas holds, the one
+    /// for less is below the other one. In plain doubles up to 1e-9 s more.
     pub(crate) fn first(&self, f: N) -> N {
         let zero = N::from_double(0.0);
         if f.exceeds(self.s_tau) {
@@ -63,7 +63,7 @@ impl<N: Number> Times<N> {
         squared.or_larger(zero).root().minus(self.v).divided_by(self.a_max)
     }
 
-    /// The latest time at way f < `s_b(v)`. In plain doubles up to 1e-9 s less.
+    /// The latest time at f < `s_b(v)`. In plain doubles up to 1e-9 s less.
     pub(crate) fn last(&self, f: N) -> N {
         let squared = self.v.times(self.v).minus(double(self.a_b).times(f)).minus(self.rough);
         let left = squared.or_larger(N::from_double(0.0)).root();
@@ -72,8 +72,8 @@ impl<N: Number> Times<N> {
 }
 
 impl Times<Real> {
-    /// `first` in plain doubles, of all that the way may be. They err by less than 1e-15 of T, and by the root of
-    /// what the way errs by.
+    /// `first` in plain doubles, of all that f may be. They err by less than 1e-15 of T, and by the root of
+    /// what f errs by.
     pub(super) fn plainly_first(&self, f: Real) -> f64 {
         /// m; takes less than 1e-29 s, and twice `a_max` times more does not underflow.
         const NOTHING: f64 = 1e-60;
@@ -103,6 +103,11 @@ impl Times<Real> {
 /// The least and the greatest that a number may be, each rounded once.
 fn ends(number: Real) -> [f64; 2] {
     [number.value() - number.off(), number.value() + number.off()]
+}
+
+/// No path is longer, m (H-14.60).
+pub(crate) fn longest<N: Number>(s_stop: N) -> N {
+    double(s_stop).plus(N::from_double(1.0))
 }
 
 fn double<N: Number>(number: N) -> N {

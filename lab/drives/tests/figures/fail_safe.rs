@@ -22,8 +22,8 @@ pub fn path() -> String {
     let (first, last) = (first_ahead(&scene, points).expect("one is"), &places[places.len() - 1]);
     let words = format!(
         "Large circles: nodes. Dots: places, at most d = 1/4 m apart along x and along y. Thin line: the trajectory as it was sent. \
-         Way of the last place: s_stop = {:.2} m, here for v = 8 m/s.",
-        last.way.near()
+         Progress of the last place: s_stop = {:.2} m, here for v = 8 m/s.",
+        last.progress.near()
     );
     let mut sheet = Sheet::new(1, [880.0, 420.0], 2);
     let look = Look {
@@ -50,34 +50,33 @@ pub fn path() -> String {
         pen.words([0.5, -0.12], [0.0, 0.0], "", "piece");
         pen.words(sent[4], [-16.0, -14.0], "e", "last point, last node");
         let end = xy(&last.pose.origin);
-        pen.words(end, [10.0, 14.0], "", "last place: way = s_stop");
+        pen.words(end, [10.0, 14.0], "", "last place: progress = s_stop");
         pen.words(end, [-24.0, 50.0], "", "straight on behind the last node");
         pen.arrow([end[0] - 0.3, end[1] - 0.52], [end[0] - 0.4, end[1] - 0.25]);
     });
     sheet.finish()
 }
 
-/// When the CAV can be at which way.
+/// When the CAV can be where.
 pub fn windows() -> String {
     let scene =
         scene(&json!({"ego": ego(8.0), "trajectory": trajectory(200_000_000, &[[0.0, 0.0, 0.0]])}));
     let (driving, points) =
         (Driving::of(&scene), scene.trajectory.as_ref().expect("it is current"));
     let [s_b, s_stop, t] = [driving.s_b(), driving.s_stop(), driving.t_stop()].map(|it| it.near());
-    let words = "A bar for each place: from first(way of the place before) to last(way of the place after). Neighbours overlap. \
+    let words = "A bar for each place: from first(progress of the place before) to last(length at the place after). Straight on they are one. Neighbours overlap. \
                  Where the place after it is at s_b(v) or farther the CAV may stand: these bars end at H(w), or at T for an object that comes across.";
     let mut sheet = Sheet::new(1, [880.0, 400.0], 2);
     let look = Look {
-        title: "Windows: time over way, v = 8 m/s",
+        title: "Windows: time over distance, v = 8 m/s",
         words,
         low: [-0.5, -0.15],
         scale: [150.0, 240.0],
     };
     sheet.panel(&look, |pen| {
         for place in places(&scene, points) {
-            let window =
-                window(&scene.reads, &driving, &place.way_before, place.way_after.as_ref());
-            let (way, begin) = (place.way.near(), window.begin.near());
+            let window = window(&scene.reads, &driving, &place.least, place.length_after.as_ref());
+            let (way, begin) = (place.progress.near(), window.begin.near());
             let bar = |low: f64, high: f64| {
                 [[way - 0.05, low], [way + 0.05, low], [way + 0.05, high], [way - 0.05, high]]
             };
@@ -94,7 +93,7 @@ pub fn windows() -> String {
         pen.line(&curve(&|f| driving.last(f), s_b), "path");
         pen.arrow([-0.1, 0.0], [5.6, 0.0]);
         pen.arrow([0.0, -0.05], [0.0, 1.48]);
-        pen.words([5.6, 0.0], [-24.0, 18.0], "", "way, m");
+        pen.words([5.6, 0.0], [-24.0, 18.0], "", "distance, m");
         pen.words([0.0, 1.48], [-62.0, 12.0], "", "time, s");
         pen.line(&[[0.0, t], [5.4, t]], "limit");
         pen.words([0.0, t], [-18.0, 4.0], "", "T");

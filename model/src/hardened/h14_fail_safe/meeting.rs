@@ -34,14 +34,14 @@ pub fn failure(
         .collect();
     let driving = Driving::of(scene);
     places(scene, trajectory).enumerate().find_map(|(k, place)| {
-        let window = window(&scene.reads, &driving, &place.way_before, place.way_after.as_ref());
+        let window = window(&scene.reads, &driving, &place.least, place.length_after.as_ref());
         let cav = wider(scene, trajectory, &place.pose);
         let (motion, ..) = examined.iter().find(|(motion, comes_across, margin)| {
             let cav = cav.with_halves(|half| half + margin);
             sweeps_over(scene, &cav, &window, motion, *comes_across)
         })?;
         let Named { track, detection, item, age_ns } = motion.named;
-        let witness = Witness::new(Rule::FailSafe, &place.way, &driving.s_stop());
+        let witness = Witness::new(Rule::FailSafe, &place.progress, &driving.s_stop());
         let witness = Witness { track, detection, item, age_ns, ..witness };
         Some(witness.at_point(trajectory.len() + k))
     })
@@ -165,7 +165,7 @@ impl BesideRoute {
         let distances = |place: Place| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
             is_along &=
-                is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.way);
+                is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.progress);
             let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
             let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &widening);
             let cav = wider(scene, trajectory, &place.pose);
@@ -247,9 +247,9 @@ fn route_bends(scene: &Scene, path: &[Segment], r: i128) -> bool {
     })
 }
 
-/// abs(h x h_k) <= 0.05 + way / 30 m.
-fn bends(scene: &Scene, h_k: &Vector, way: &Real) -> bool {
-    let limit = Real::from_double(0.05) + way / Real::from_integer(30);
+/// abs(h x h_k) <= 0.05 + progress / 30 m.
+fn bends(scene: &Scene, h_k: &Vector, progress: &Real) -> bool {
+    let limit = Real::from_double(0.05) + progress / Real::from_integer(30);
     scene.reads.at_most(&scene.ego.heading.cross(h_k).abs(), &limit)
 }
 

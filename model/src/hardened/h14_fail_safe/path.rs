@@ -1,11 +1,10 @@
 //! The path of the CAV: from where it is along the points of the trajectory, then straight on, and the
 //! places where it is examined (`spec/hardened/H-14.md#requirements-the-path`).
 
-use std::iter::once;
+use std::iter::{from_fn, once};
 
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::scene::{Point, Scene};
-use crate::numbers::reading::Reading;
 use crate::numbers::real::Real;
 use crate::numbers::vector::{Frame, Vector};
 
@@ -14,15 +13,17 @@ use crate::numbers::vector::{Frame, Vector};
 pub struct Place {
     /// Where.
     pub pose: Frame,
-    /// Its way, m.
-    pub way: Real,
-    /// Way of the place before it, m; 0 for the first.
-    pub way_before: Real,
-    /// Way of the place after it, m; none for the last.
-    pub way_after: Option<Real>,
+    /// Its progress, m.
+    pub progress: Real,
+    /// The least progress of it, of the place before it and of the place after it, at least 0, m.
+    pub least: Real,
+    /// The length up to it, m.
+    pub length: Real,
+    /// The length at the place after it, m; none for the last.
+    pub length_after: Option<Real>,
 }
 
-/// How far ahead a point is: (x - p) . h, m.
+/// How far ahead a point is, its progress: (x - p) . h, m.
 pub fn ahead(scene: &Scene, x: &Vector) -> Real {
     (x - &scene.ego.position).dot(&scene.ego.heading)
 }
@@ -37,6 +38,11 @@ pub fn first_ahead(scene: &Scene, trajectory: &[Point]) -> Option<usize> {
     trajectory.iter().position(|point| ahead(scene, &point.pose.origin) > least_ahead())
 }
 
+/// The length above which a place is the last, and fails `reach`: 2 s_stop + 1 m.
+pub fn greatest_length(scene: &Scene) -> Real {
+    integer(2) * Driving::of(scene).s_stop() + integer(1)
+}
+
 /// p with the heading of the CAV, and the points from the first one on that is ahead.
 fn nodes(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
     let ego = &scene.ego;
@@ -46,11 +52,11 @@ fn nodes(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
     once(p).chain(points).collect()
 }
 
-/// From a node a, at a way, to the next node b.
+/// From a node a, at a length, to the next node b.
 struct Piece {
     a: Frame,
     b: Frame,
-    way: Real,
+    length: Real,
 }
 
 impl Piece {
@@ -59,9 +65,10 @@ impl Piece {
         &self.b.origin - &self.a.origin
     }
 
-    /// max(u . h_a, 0), m.
-    fn advance(&self) -> Real {
-        self.u().dot(&self.a.direction).max(Real::zero())
+    /// By what the length grows: abs(u . h_a) + abs(u x h_a), m.
+    fn growth(&self) -> Real {
+        let (u, h_a) = (self.u(), &self.a.direction);
+        u.dot(h_a).abs() + u.cross(h_a).abs()
     }
 
     /// The least integer j >= 1 with abs(u_x) <= j d and abs(u_y) <= j d.
@@ -72,40 +79,40 @@ impl Piece {
     }
 
     /// Its places behind a; the last one is b.
-    fn steps(self, d: &Real) -> impl Iterator<Item = Step> + use<> {
-        let (j, u, advance) = (self.parts(d), self.u(), self.advance());
+    fn steps(self, scene: &Scene) -> impl Iterator<Item = Step> {
+        let (j, u, growth) = (self.parts(&d(scene)), self.u(), self.growth());
         (1..=j).map(move |k| {
             let share = integer(k) / integer(j);
             let origin = &self.a.origin + &u.scaled(&share);
-            let way = &self.way + &advance * share;
+            let length = &self.length + &growth * share;
             let heading = self.a.direction.clone();
-            if k == j {
-                Step { pose: self.b.clone(), way, heading }
-            } else {
-                Step { pose: Frame { origin, direction: heading.clone() }, way, heading }
-            }
+            let pose =
+                if k == j { self.b.clone() } else { Frame { origin, direction: heading.clone() } };
+            Step { progress: ahead(scene, &pose.origin), pose, length, heading }
         })
     }
 }
 
-/// A place of the endless path: where, its way, and the heading of its piece.
+/// A place of the endless path: where, its progress, its length, and the heading of its piece.
+#[derive(Clone)]
 struct Step {
     pose: Frame,
-    way: Real,
+    progress: Real,
+    length: Real,
     heading: Vector,
 }
 
-/// The pieces of the path and its last node with the way of that.
+/// The pieces of the path, and its last node with the length at that.
 fn pieces(scene: &Scene, trajectory: &[Point]) -> (Vec<Piece>, Frame, Real) {
     let nodes = nodes(scene, trajectory);
-    let mut way = Real::zero();
+    let mut length = Real::zero();
     let piece = |ends: &[Frame]| {
-        let piece = Piece { a: ends[0].clone(), b: ends[1].clone(), way: way.clone() };
-        way = &way + piece.advance();
+        let piece = Piece { a: ends[0].clone(), b: ends[1].clone(), length: length.clone() };
+        length = &length + piece.growth();
         piece
     };
     let pieces = nodes.windows(2).map(piece).collect();
-    (pieces, nodes[nodes.len() - 1].clone(), way)
+    (pieces, nodes[nodes.len() - 1].clone(), length)
 }
 
 /// d_p = min(1/4 m, L).
@@ -114,106 +121,174 @@ fn d(scene: &Scene) -> Real {
 }
 
 /// The places of a path without an end.
-fn endless(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Step> + use<> {
+fn endless(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Step> {
     let d = d(scene);
-    let (pieces, node, way) = pieces(scene, trajectory);
+    let (pieces, node, length) = pieces(scene, trajectory);
     let p = Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() };
-    let p = Step { pose: p, way: Real::zero(), heading: scene.ego.heading.clone() };
-    let on_pieces = {
-        let d = d.clone();
-        pieces.into_iter().flat_map(move |piece| piece.steps(&d))
-    };
+    let heading = p.direction.clone();
+    let p = Step { pose: p, progress: Real::zero(), length: Real::zero(), heading };
+    let on_pieces = pieces.into_iter().flat_map(|piece| piece.steps(scene));
     let behind = (1..).map(move |k| {
         let far = integer(k) * &d;
         let origin = &node.origin + &node.direction.scaled(&far);
-        let heading = node.direction.clone();
-        Step { pose: Frame { origin, direction: heading.clone() }, way: &way + far, heading }
+        let (progress, heading) = (ahead(scene, &origin), node.direction.clone());
+        let pose = Frame { origin, direction: heading.clone() };
+        Step { pose, progress, length: &length + far, heading }
     });
     once(p).chain(on_pieces).chain(behind)
 }
 
-/// The places in their order. The last one is where the way is s_stop; strictly those with s_stop < way
-/// <= s_stop + m are examined, too, before it and in its window; laxly the last one is the last whose
-/// way is at most s_stop + m.
-pub fn places(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Place> {
-    let s_stop = Driving::of(scene).s_stop();
-    let end = scene.reads.raised(&s_stop);
-    let mut steps = endless(scene, trajectory);
-    let mut next = steps.next();
-    let mut way_before = Real::zero();
-    let mut at_the_end: Vec<Place> = Vec::new();
-    let all = std::iter::from_fn(move || {
-        let Some(o) = next.take() else { return at_the_end.pop() };
-        let q = steps.next()?;
-        let before = std::mem::replace(&mut way_before, o.way.clone());
-        let place = |step: &Step, way_before: &Real, way_after: Option<&Real>| Place {
-            pose: step.pose.clone(),
-            way: step.way.clone(),
-            way_before: way_before.clone(),
-            way_after: way_after.cloned(),
+/// The items up to the first that is the last one.
+fn up_to<T>(
+    mut items: impl Iterator<Item = T>,
+    is_last: impl Fn(&T) -> bool,
+) -> impl Iterator<Item = T> {
+    let mut is_over = false;
+    from_fn(move || {
+        let item = if is_over { None } else { items.next() }?;
+        is_over = is_last(&item);
+        Some(item)
+    })
+}
+
+/// The places up to the first whose length is above the greatest. The first whose progress is above s_stop, if it
+/// comes before, gives its place to the last one.
+fn ended(
+    steps: impl Iterator<Item = Step>,
+    s_stop: Real,
+    greatest: Real,
+) -> impl Iterator<Item = Step> {
+    let last_at = s_stop.clone();
+    let is_last = move |step: &Step| step.progress > s_stop || step.length > greatest;
+    let mut before: Option<Step> = None;
+    up_to(steps, is_last).map(move |b| {
+        let here = match before.take() {
+            Some(a) if b.progress > last_at => last(&a, &b, &last_at),
+            _ => b,
         };
-        if q.way <= s_stop {
-            let here = place(&o, &before, Some(&q.way));
-            next = Some(q);
-            return Some(here);
-        }
-        let here = place(&o, &before, Some(&s_stop));
-        let last = place(&last(&o, &q, &s_stop), &o.way, None);
-        let beyond = once(q).chain(steps.by_ref()).take_while(|step| step.way <= end);
-        at_the_end = beyond.map(|step| place(&step, &o.way, None)).chain(once(last)).collect();
-        at_the_end.reverse();
-        Some(here)
+        before.insert(here).clone()
+    })
+}
+
+/// The point between a and b at which the progress is s_stop: a + share (b - a), the share being
+/// (s_stop - progress of a) / (progress of b - progress of a), with the heading of the piece.
+fn last(a: &Step, b: &Step, s_stop: &Real) -> Step {
+    let share = (s_stop - &a.progress) / (&b.progress - &a.progress);
+    let origin = &a.pose.origin + &(&b.pose.origin - &a.pose.origin).scaled(&share);
+    let length = &a.length + (&b.length - &a.length) * share;
+    let heading = b.heading.clone();
+    let pose = Frame { origin, direction: heading.clone() };
+    Step { pose, progress: s_stop.clone(), length, heading }
+}
+
+/// The places with what they know of their neighbours.
+fn with_neighbours(steps: impl Iterator<Item = Step>) -> impl Iterator<Item = Place> {
+    let mut steps = steps.peekable();
+    let mut before = Real::zero();
+    from_fn(move || {
+        let Step { pose, progress, length, .. } = steps.next()?;
+        let before = std::mem::replace(&mut before, progress.clone());
+        let (here, after) = (before.min(progress.clone()), steps.peek());
+        let least = after.map_or(here.clone(), |after| here.min(after.progress.clone()));
+        let length_after = after.map(|after| after.length.clone());
+        Some(Place { pose, progress, least: least.max(Real::zero()), length, length_after })
+    })
+}
+
+/// The places in their order: up to the last one, at s_stop, if none before is too long. Laxly they end before the
+/// first whose progress is above s_stop + m, behind p at least, and have the windows of the exact model.
+pub fn places(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Place> {
+    let (reads, s_stop) = (&scene.reads, Driving::of(scene).s_stop());
+    let exact = greatest_length(scene);
+    let greatest = reads.raised(&exact);
+    let steps = ended(endless(scene, trajectory), s_stop.clone(), exact.max(greatest.clone()));
+    let listed = up_to(with_neighbours(steps), move |place| place.length > greatest);
+    let all = listed.flat_map(|place| {
+        let is_last = reads.is_strict() && place.length_after.is_none();
+        if is_last { with_beyond(scene, trajectory, place) } else { vec![place] }
     });
-    let reads = &scene.reads;
-    let s_stop = Driving::of(scene).s_stop();
-    let is_within =
-        move |(k, place): &(usize, Place)| *k == 0 || reads.may_be_at_most(&place.way, &s_stop);
+    let is_within = move |(k, place): &(usize, Place)| {
+        *k == 0 || reads.may_be_at_most(&place.progress, &s_stop)
+    };
     all.enumerate().take_while(is_within).map(|(_, place)| place)
 }
 
-/// The point between o and q at which the way is s_stop:
-/// o + ((s_stop - way of o) / (way of q - way of o)) (q - o), with the heading of the piece.
-fn last(o: &Step, q: &Step, s_stop: &Real) -> Step {
-    let share = (s_stop - &o.way) / (&q.way - &o.way);
-    let beyond = &q.pose.origin - &o.pose.origin;
-    let origin = &o.pose.origin + &beyond.scaled(&share);
-    let pose = Frame { origin, direction: q.heading.clone() };
-    Step { pose, way: s_stop.clone(), heading: q.heading.clone() }
+/// What the strict model examines before the last place, and that: the places from the first whose progress is above
+/// s_stop up to the first whose progress is above s_stop + m. Their window is that of the last place, from the least
+/// progress of all of them on.
+fn with_beyond(scene: &Scene, trajectory: &[Point], last: Place) -> Vec<Place> {
+    let (reads, s_stop) = (&scene.reads, Driving::of(scene).s_stop());
+    let greatest = reads.raised(&greatest_length(scene));
+    let is_last = |step: &Step| step.length > greatest;
+    let beyond = up_to(endless(scene, trajectory), is_last)
+        .skip_while(|step| step.progress <= s_stop)
+        .take_while(|step| reads.may_be_at_most(&step.progress, &s_stop))
+        .map(|Step { pose, progress, length, .. }| Place {
+            pose,
+            progress,
+            length,
+            ..last.clone()
+        });
+    let mut places: Vec<Place> = beyond.chain(once(last.clone())).collect();
+    let least = places.iter().map(|place| place.progress.clone()).min();
+    let least = least.map_or(last.least.clone(), |it| it.min(last.least).max(Real::zero()));
+    places.iter_mut().for_each(|place| place.least = least.clone());
+    places
 }
 
-/// Both ends of each piece that begins at most 1 cm beyond s_stop, with its heading; behind the last node, it and
-/// the point at s_stop + 1 cm.
+/// Both ends of each piece, with its heading, up to the first piece that ends more than 1 cm beyond s_stop; without such
+/// a piece the last node, too, and the point straight on from it at the length 2 s_stop + 1.01 m.
 pub fn ends(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
-    let most = Driving::of(scene).s_stop() + integer(1) / integer(100);
-    let (pieces, node, way) = pieces(scene, trajectory);
-    let behind = (way <= most).then(|| Frame {
-        origin: node.point(&(&most - &way), &Real::zero()),
+    let s_stop = Driving::of(scene).s_stop();
+    let most = &s_stop + integer(1) / integer(100);
+    let (pieces, node, length) = pieces(scene, trajectory);
+    let is_last = |piece: &Piece| ahead(scene, &piece.b.origin) > most;
+    let straight = integer(2) * s_stop + Real::from_double(1.01) - length;
+    let behind = (!pieces.iter().any(is_last)).then(|| Frame {
+        origin: node.point(&straight.max(Real::zero()), &Real::zero()),
         direction: node.direction.clone(),
     });
-    let in_reach = pieces.into_iter().take_while(|piece| piece.way <= most);
-    let of_pieces = in_reach.flat_map(|Piece { a, b, .. }| {
+    let of_pieces = up_to(pieces.into_iter(), is_last).flat_map(|Piece { a, b, .. }| {
         let b = Frame { origin: b.origin, direction: a.direction.clone() };
         [a, b]
     });
     of_pieces.chain(behind.into_iter().flat_map(|end| [node.clone(), end])).collect()
 }
 
-/// How many places there are, without going through them.
+/// How many places the exact model has, without going through them.
 pub fn count(scene: &Scene, trajectory: &[Point]) -> i128 {
-    let end = scene.reads.raised(&Driving::of(scene).s_stop());
-    let last = i128::from(scene.reads.reading != Reading::Lax);
     let d = d(scene);
-    let (pieces, _, way) = pieces(scene, trajectory);
-    let mut count = 1 + last;
+    let (pieces, node, length) = pieces(scene, trajectory);
+    // p and the last one.
+    let mut count = 2;
     for piece in pieces {
-        let (j, advance) = (piece.parts(&d), piece.advance());
-        if &piece.way + &advance > end {
-            let most = (end - piece.way) * integer(j) / advance;
-            return count + i128::from(most.floor()).max(0);
+        let j = integer(piece.parts(&d));
+        let (part, growth) = (piece.u().scaled(&(integer(1) / &j)), piece.growth() / &j);
+        let within = within(scene, &piece.a.origin, &piece.length, &part, &growth);
+        match within.filter(|most| *most < j) {
+            Some(most) => return count + i128::from(most.floor()),
+            None => count += i128::from(j.floor()),
         }
-        count += i128::from(j);
     }
-    count + i128::from(((end - way) / d).floor()).max(0)
+    let within = within(scene, &node.origin, &length, &node.direction.scaled(&d), &d);
+    count + within.map_or(0, |most| i128::from(most.floor()))
+}
+
+/// How many steps from a point at a length, of which each makes the length grow, keep to s_stop and to the greatest
+/// length; none where all do.
+fn within(
+    scene: &Scene,
+    from: &Vector,
+    length: &Real,
+    step: &Vector,
+    growth: &Real,
+) -> Option<Real> {
+    let progress = step.dot(&scene.ego.heading);
+    let s_stop = Driving::of(scene).s_stop();
+    let by = |left: Real, each: &Real| (*each > Real::zero()).then(|| left / each);
+    let both =
+        [by(s_stop - ahead(scene, from), &progress), by(greatest_length(scene) - length, growth)];
+    both.into_iter().flatten().min()
 }
 
 fn integer(n: i64) -> Real {

@@ -1,7 +1,9 @@
-//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV
-//! (`spec/hardened/H-14.md#requirements-reach`).
+//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, and the path is not
+//! too long (`spec/hardened/H-14.md#requirements-reach`).
 
-use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
+use crate::hardened::h14_fail_safe::path::{
+    Place, ahead, first_ahead, greatest_length, least_ahead, places,
+};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
@@ -10,13 +12,17 @@ use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
 /// A point before the first node, or a place other than p, with f < s_b(v) is farther aside than
-/// 0.5 m + 0.17 f + 5.75 t^2.
+/// 0.5 m + 0.17 f + 5.75 t^2, or the length at a place is above 2 s_stop + 1 m.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
-    let points = trajectory[..first_node].iter().map(|point| point.pose.origin.clone()).enumerate();
-    let places = places(scene, trajectory).map(|place| place.pose.origin);
-    let mut all = points.chain((trajectory.len()..).zip(places).skip(1));
-    all.find_map(|(i, x)| Some(aside_failure(scene, &x)?.at_point(i)))
+    let points = trajectory[..first_node].iter();
+    let of_points = points.map(|point| aside_failure(scene, &point.pose.origin)).enumerate();
+    let of_places = places(scene, trajectory).map(|place| {
+        let aside = aside_failure(scene, &place.pose.origin);
+        aside.or_else(|| length_failure(scene, &place))
+    });
+    let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
+    all.find_map(|(i, failure)| Some(failure?.at_point(i)))
 }
 
 /// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
@@ -30,6 +36,13 @@ fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
     let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
     let limit = offset + turn * &f + grip * driving.last(&f).square();
     Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)
+}
+
+/// length <= 2 s_stop + 1 m.
+fn length_failure(scene: &Scene, place: &Place) -> Option<Witness> {
+    let (length, greatest) = (&place.length, greatest_length(scene));
+    let is_short = scene.reads.at_most(length, &greatest);
+    Witness::unless(is_short, Rule::Reach, length, &greatest)
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

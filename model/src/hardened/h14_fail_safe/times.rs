@@ -51,7 +51,7 @@ impl<'a> Driving<'a> {
         self.tau + self.v_tau() / self.a_b
     }
 
-    /// The earliest time at way f, s: (sqrt(v^2 + 2 a_max f) - v) / a_max up to s_tau, and
+    /// The earliest time at which the CAV can have driven f, s: (sqrt(v^2 + 2 a_max f) - v) / a_max up to s_tau, and
     /// tau + (v_tau - sqrt(max(v_tau^2 - 2 a_b (f - s_tau), 0))) / a_b from there on.
     pub fn first(&self, f: &Real) -> Real {
         let (v_tau, s_tau) = (self.v_tau(), self.s_tau());
@@ -62,7 +62,7 @@ impl<'a> Driving<'a> {
         self.tau + (v_tau - squared.max(Real::zero()).sqrt()) / self.a_b
     }
 
-    /// The latest time at way f < s_b(v), s: (v - sqrt(max(v^2 - 2 a_b f, 0))) / a_b.
+    /// The latest time at which it has driven no more than f < s_b(v), s: (v - sqrt(max(v^2 - 2 a_b f, 0))) / a_b.
     pub fn last(&self, f: &Real) -> Real {
         let squared = self.v.square() - two() * self.a_b * f;
         (self.v - squared.max(Real::zero()).sqrt()) / self.a_b
@@ -76,21 +76,21 @@ fn two() -> Real {
 /// When the CAV is examined at a place.
 #[derive(Clone, Debug)]
 pub struct Window {
-    /// first(way of the place before), s.
+    /// first(least progress around the place), s.
     pub begin: Real,
-    /// last(way of the place after), s; none where the CAV may stand.
+    /// last(length at the place after), s; none where the CAV may stand.
     pub end: Option<Real>,
 }
 
-/// The window of a place: from first(way of the place before it) to last(way of the place after it), or
-/// without an end where the CAV may stand there (way >= s_b(v)), and at the last place (`None`).
+/// The window of a place: from first(least progress around it, at least 0) to last(length at the place after it), or
+/// without an end where the CAV may stand there (length >= s_b(v)), and at the last place (`None`).
 pub fn window(
     reads: &Comparisons,
     driving: &Driving,
-    way_before: &Real,
-    way_after: Option<&Real>,
+    least: &Real,
+    length_after: Option<&Real>,
 ) -> Window {
-    let may_stand = |way: &Real| *way >= reads.lowered(&driving.s_b());
-    let after = way_after.filter(|way| !may_stand(way));
-    Window { begin: driving.first(way_before), end: after.map(|way| driving.last(way)) }
+    let may_stand = |length: &Real| *length >= reads.lowered(&driving.s_b());
+    let after = length_after.filter(|length| !may_stand(length));
+    Window { begin: driving.first(least), end: after.map(|length| driving.last(length)) }
 }

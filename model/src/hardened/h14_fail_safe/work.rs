@@ -7,7 +7,7 @@ use std::cell::LazyCell;
 use crate::hardened::detection_history::{Usable, confirmed, nearest_to_reference, usable};
 use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
 use crate::hardened::h14_fail_safe::motions::Motion;
-use crate::hardened::h14_fail_safe::path;
+use crate::hardened::h14_fail_safe::path::{self, Place};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
@@ -42,7 +42,7 @@ pub fn of_pairs(scene: &Scene) -> i128 {
     pairs.sum()
 }
 
-/// K being the places, E those whose way is above s_stop - delta, and C the cross sections: 320 for each motion;
+/// K being the places, E those whose progress is above s_stop - delta, and C the cross sections: 320 for each motion;
 /// where it comes near the path, 640 + 400 (K + E) more; where it keeps beside as well, 320 + 560 K + 400 E + 32 C.
 pub fn of_motions(
     scene: &Scene,
@@ -51,9 +51,9 @@ pub fn of_motions(
     beside_route: &LazyCell<BesideRoute, impl FnOnce() -> BesideRoute>,
 ) -> i128 {
     let last = Driving::of(scene).s_stop() - &scene.reads.delta;
-    let ways: Vec<Real> = path::places(scene, trajectory).map(|place| place.way).collect();
-    let k = ways.len() as i128;
-    let e = ways.iter().filter(|way| **way > last).count() as i128;
+    let places: Vec<Place> = path::places(scene, trajectory).collect();
+    let k = places.len() as i128;
+    let e = places.iter().filter(|place| place.progress > last).count() as i128;
     let c = scene.route.cross_sections.len() as i128;
     let path = extents(scene, trajectory);
     let of_motion = |motion: &Motion| {

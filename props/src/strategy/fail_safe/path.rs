@@ -8,13 +8,15 @@ use super::super::base::{self, Frame};
 /// More places than any aim needs.
 const MOST: usize = 4_000;
 
-/// Where the reference point of the CAV is, and its way, m.
+/// Where the reference point of the CAV is.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Pose of the reference point.
     pub pose: Frame,
-    /// From where the CAV is now, m.
-    pub way: f64,
+    /// How far ahead of the CAV, m.
+    pub progress: f64,
+    /// Of the path up to there, at least, m.
+    pub length: f64,
 }
 
 /// The CAV's rectangle at a place.
@@ -97,30 +99,31 @@ impl Path {
         self.t_stop().max(self.tau + self.t_yield + speed / (2.0 * self.a_yield))
     }
 
-    /// The earliest time at a way, s.
-    pub fn first(&self, way: f64) -> f64 {
+    /// The earliest time at f, s.
+    pub fn first(&self, f: f64) -> f64 {
         let s_tau = self.v * self.tau + 0.5 * self.a_max * self.tau * self.tau;
-        if way <= s_tau {
-            return ((self.v * self.v + 2.0 * self.a_max * way).sqrt() - self.v) / self.a_max;
+        if f <= s_tau {
+            return ((self.v * self.v + 2.0 * self.a_max * f).sqrt() - self.v) / self.a_max;
         }
         let v_tau = self.v + self.a_max * self.tau;
-        let squared = v_tau * v_tau - 2.0 * self.a_b * (way - s_tau);
+        let squared = v_tau * v_tau - 2.0 * self.a_b * (f - s_tau);
         self.tau + (v_tau - squared.max(0.0).sqrt()) / self.a_b
     }
 
-    /// The latest time at a way below `s_b(v)`, s.
-    pub fn last(&self, way: f64) -> f64 {
-        (self.v - (self.v * self.v - 2.0 * self.a_b * way).max(0.0).sqrt()) / self.a_b
+    /// The latest time at f below `s_b(v)`, s.
+    pub fn last(&self, f: f64) -> f64 {
+        (self.v - (self.v * self.v - 2.0 * self.a_b * f).max(0.0).sqrt()) / self.a_b
     }
 
     /// When the window of a place begins, s.
     pub fn begin(&self, k: usize) -> f64 {
-        self.first(self.places[k.saturating_sub(1)].way)
+        let around = &self.places[k.saturating_sub(1)..(k + 2).min(self.places.len())];
+        self.first(around.iter().map(|place| place.progress).fold(f64::MAX, f64::min).max(0.0))
     }
 
     /// When it ends, s, if the CAV may not stand there.
     pub fn end(&self, k: usize) -> Option<f64> {
-        let after = self.places.get(k + 1).map(|place| place.way)?;
+        let after = self.places.get(k + 1).map(|place| place.length)?;
         (after < self.s_b()).then(|| self.last(after))
     }
 
@@ -143,44 +146,48 @@ fn places(cycle: &Cycle) -> Vec<Place> {
     let from = points.iter().position(|it| ahead(it.x, it.y)).unwrap_or(points.len());
     let nodes =
         points[from..].iter().map(|it| Frame { x: it.x, y: it.y, cos: it.cos, sin: it.sin });
-    let mut found = vec![Place { pose: p, way: 0.0 }];
+    let mut found = vec![Place { pose: p, progress: 0.0, length: 0.0 }];
+    let place = |pose: Frame, length: f64| {
+        let progress = dot((pose.x - p.x, pose.y - p.y), (p.cos, p.sin));
+        Place { pose, progress, length }
+    };
     for node in nodes {
-        let Place { pose, way } = found[found.len() - 1];
+        let Place { pose, length, .. } = found[found.len() - 1];
         let u = (node.x - pose.x, node.y - pose.y);
         let n = base::count(u.0.abs().max(u.1.abs()) / d).max(1);
-        let advance = dot(u, (pose.cos, pose.sin)).max(0.0);
+        let more = dot(u, (pose.cos, pose.sin)).abs() + dot(u, (-pose.sin, pose.cos)).abs();
         for k in 1..=n {
             let share = k as f64 / n as f64;
             let between = Frame { x: pose.x + share * u.0, y: pose.y + share * u.1, ..pose };
-            let way = way + share * advance;
             let pose = if k == n { node } else { between };
-            if !push(&mut found, Place { pose, way }, end) {
+            if !push(&mut found, place(pose, length + share * more), end) {
                 return found;
             }
         }
     }
-    let Place { pose, way } = found[found.len() - 1];
+    let Place { pose, length, .. } = found[found.len() - 1];
     for k in 1_i32.. {
         let far = f64::from(k) * d;
         let (x, y) = pose.at(far, 0.0);
-        if !push(&mut found, Place { pose: Frame { x, y, ..pose }, way: way + far }, end) {
+        if !push(&mut found, place(Frame { x, y, ..pose }, length + far), end) {
             break;
         }
     }
     found
 }
 
-/// Whether there are more; the last one is where the way is `end`.
+/// Whether there are more; the last one is where the progress is `end`, or behind the greatest length.
 fn push(found: &mut Vec<Place>, next: Place, end: f64) -> bool {
     let before = found[found.len() - 1];
-    if next.way <= end && found.len() < MOST {
+    if next.progress <= end {
         found.push(next);
-        return true;
+        return next.length <= 2.0 * end + 1.0 && found.len() < MOST;
     }
-    let share = ((end - before.way) / (next.way - before.way)).min(1.0);
+    let share = ((end - before.progress) / (next.progress - before.progress)).min(1.0);
     let at = |from: f64, to: f64| from + share * (to - from);
     let (x, y) = (at(before.pose.x, next.pose.x), at(before.pose.y, next.pose.y));
     // Behind a node its heading is that of the piece.
-    found.push(Place { pose: Frame { x, y, ..before.pose }, way: end.min(next.way) });
+    let pose = Frame { x, y, ..before.pose };
+    found.push(Place { pose, progress: end, length: at(before.length, next.length) });
     false
 }

@@ -7,7 +7,7 @@ use super::super::draw::Draw;
 
 /// A path that ends early, begins elsewhere, stands for a while, bends, or is a CAV's of another size.
 pub fn draw(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    match draw.below(8) {
+    match draw.below(9) {
         0 | 1 => {}
         2 => shorten(draw, cycle),
         3 => shift(draw, cycle),
@@ -17,6 +17,7 @@ pub fn draw(draw: &mut Draw<'_>, cycle: &mut Cycle) {
             bend(draw, cycle);
             shift(draw, cycle);
         }
+        7 => weave(draw, cycle),
         _ => resize(draw, cycle),
     }
 }
@@ -98,6 +99,25 @@ fn bend(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         heading += curvature * step;
         (point.x, point.y) = frame.at(at.0, at.1);
         (point.cos, point.sin) = frame.turn((heading.cos(), heading.sin()));
+    }
+    cycle.route = base::road(frame, 30.0);
+}
+
+/// Headings to and fro, as far as H-11 lets each step turn, and points a little to either side.
+fn weave(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let (share, aside) = (draw.pick(&[0.95, 0.3]), draw.pick(&[0.0, 0.01]));
+    let frame = frame(cycle);
+    let points = points(cycle);
+    let turn = points.windows(2).map(|pair| {
+        let way = (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y);
+        0.1 + 0.1 * base::seconds(pair[1].t_ns - pair[0].t_ns) + 0.5 * way
+    });
+    let angle = 0.5 * (share * turn.fold(0.8, f64::min)).asin();
+    for (point, k) in points.iter_mut().zip(0_u8..).skip(1) {
+        let side = if k % 2 == 0 { 1.0 } else { -1.0 };
+        point.x -= side * aside * frame.sin;
+        point.y += side * aside * frame.cos;
+        (point.cos, point.sin) = frame.turn((angle.cos(), side * angle.sin()));
     }
     cycle.route = base::road(frame, 30.0);
 }

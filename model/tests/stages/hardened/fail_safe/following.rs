@@ -160,7 +160,7 @@ fn who_keeps_beside_does_not_drift_into_the_path() {
     assert_eq!(keeps_beside(&beside(-10.0, 8.0, 8.0, -0.9)), [true; 3], "far enough for more");
 }
 
-/// abs(h x h_k) <= 0.05 + way / 30 m; a turned CAV is wider.
+/// abs(h x h_k) <= 0.05 + progress / 30 m; a turned CAV is wider.
 /// H-14.41.
 #[test]
 fn the_path_bends_and_does_not_turn_off() {

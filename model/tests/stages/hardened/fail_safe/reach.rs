@@ -1,7 +1,7 @@
 //! `spec/hardened/H-14.md#requirements-reach`
 
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};
+use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
@@ -90,6 +90,63 @@ fn a_turn_on_the_spot_is_not_within_reach() {
         found(&cycle),
         Some((Rule::Reach, Some(12 + 3), "0.75".into())),
         "a node is a place"
+    );
+}
+
+/// A trajectory through these poses, of which H-11 is not asked.
+fn leads(v: f64, poses: &[[f64; 4]]) -> Cycle {
+    let mut cycle = base(HARDENED.without(HardenedRule::H11), PlanRemote);
+    cycle.ego.speed = v;
+    (cycle.parameters.tau, cycle.parameters.lateral_tolerance) = (0.0, 3.0);
+    let point = |(i, [x, y, cos, sin]): (i64, &[f64; 4])| TrajectoryPoint {
+        cos: *cos,
+        sin: *sin,
+        ..at_time(i * 500_000_000, *x, *y)
+    };
+    let points = (0..).zip(poses).map(point).collect();
+    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+    cycle
+}
+
+/// s_b(1/2) = 1/64 m, s_stop = 13/16 m, so that a length of 2.625 m is the greatest.
+fn slow(poses: &[[f64; 4]]) -> Cycle {
+    let mut cycle = leads(0.5, poses);
+    (cycle.parameters.tau, cycle.parameters.a_max) = (1.0, 0.5);
+    cycle
+}
+
+/// H-14.60, H-14.61: what is longer than 2 s_stop + 1 m fails at the place that is; the lax model has no place at s_stop.
+#[test]
+fn a_path_is_not_longer_than_twice_s_stop() {
+    let aside = |e: f64| {
+        let y = 1.8125 + e;
+        slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, y, 1.0, 0.0], [2.0, y, 1.0, 0.0]])
+    };
+    let all = [-3e-6, -0.5e-6, 0.0, 0.5e-6, 3e-6].map(|e| safe(&aside(e)));
+    assert_eq!(all, [YES, NEAR_SAFE, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE]);
+    let Outcome::Failed(it) = outcome(&aside(0.25), Stage::Ii) else { panic!("too long") };
+    // 0, two to 0.5, nine to the side, one ahead.
+    let place = (Some(4 + 12), Rule::Reach, "2.8125", "2.625");
+    let compared = it.compared.each_ref().map(ToString::to_string);
+    assert_eq!((it.point, it.rule, compared[0].as_str(), compared[1].as_str()), place);
+    // It turns off and never comes to s_stop: laxly one that ends at 2.625 m is short enough.
+    let turns =
+        |e: f64| slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.125 + e, 0.0, 1.0]]);
+    let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| safe(&turns(e)));
+    assert_eq!(all, [NO, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
+    assert_eq!(rule(&turns(0.0), Stage::Ii), Some(Rule::Reach));
+}
+
+/// H-14.61: of both reasons at a place the witness names that it is too far aside.
+#[test]
+fn at_one_place_too_far_aside_comes_before_too_long() {
+    // There and back 2.375 m; at 0.5 m aside it is 2.875 m long, at 0.75 m 3.125 m: s_stop is 1 m.
+    let to_and_fro = [0.0, 0.5, -0.5, 0.375].map(|x| [x, 0.0, 1.0, 0.0]);
+    let poses = [to_and_fro.as_slice(), &[[0.375, 1.0, 1.0, 0.0]]].concat();
+    let Outcome::Failed(it) = outcome(&leads(4.0, &poses), Stage::Ii) else { panic!("aside") };
+    assert_eq!(
+        (it.rule, it.point, it.compared[0].to_string().as_str()),
+        (Rule::Reach, Some(5 + 13), "0.75")
     );
 }
 

@@ -42,14 +42,14 @@ fn a_cav_that_stands_may_stand_at_once() {
     assert_eq!(driving.first(&Real::zero()), Real::zero());
 }
 
-/// H-14.11, H-14.12, H-14.13: from first(way before) to last(way after); without an end
+/// H-14.11, H-14.12, H-14.13: from first(least progress around) to last(length after); without an end
 /// from s_b(v) on, as the reading moves it, and at the last place.
 #[test]
 fn windows_reach_from_the_place_before_to_the_place_after() {
     with(|driving| {
-        let end = |reading: Reading, way_after: Option<f64>| {
+        let end = |reading: Reading, length_after: Option<f64>| {
             let reads = Comparisons::new(reading, r(1e-6));
-            let window = window(&reads, driving, &r(17.0 / 8.0), way_after.map(r).as_ref());
+            let window = window(&reads, driving, &r(17.0 / 8.0), length_after.map(r).as_ref());
             assert_eq!(window.begin, r(0.25));
             window.end
         };
@@ -57,8 +57,8 @@ fn windows_reach_from_the_place_before_to_the_place_after() {
         assert_eq!([end(exact, Some(3.0)), end(exact, None)], [Some(r(0.5)), None]);
         assert!(end(exact, Some(4.0f64.next_down())).is_some());
         assert_eq!(end(exact, Some(4.0)), None);
-        let stands = |way: f64| {
-            let of = |reading| end(reading, Some(way)).is_none();
+        let stands = |length: f64| {
+            let of = |reading| end(reading, Some(length)).is_none();
             [Reading::Strict, exact, Reading::Lax].map(of)
         };
         assert_eq!(stands(4.0 - 2e-6), [false; 3]);

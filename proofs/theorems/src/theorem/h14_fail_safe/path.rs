@@ -1,7 +1,7 @@
 //! H-14: the places of the CAV on its path (`spec/hardened/H-14.md#requirements-the-path`).
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::h14_fail_safe::path::{Place, places};
+use crate::hardened::h14_fail_safe::path::{Place, ahead, greatest_length, places};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::cycle::Profile;
 use crate::input::scene::{Point, Scene};
@@ -15,19 +15,30 @@ use crate::theorem::rectangle::{point_of, vector};
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
-        id: "the_last_place_is_at_s_stop_and_the_ways_of_places_do_not_fall",
-        statement: "H-14: the way of the first place is 0, that of the last one s_stop, and of any two that follow each \
-                    other the second is not less; a place knows the ways of both its neighbours",
-        domain: "a CAV at the origin along x, of 1/4 m and more; two points with any headings, each at most 1/4 m in x and in y \
-                 from what is before; s_stop at most 1/2 m; tau = 0",
-        claim: || ways(at_most),
-        wrong: Wrong { statement: "is greater", claim: || ways(less) },
+        id: "a_CAV_has_a_progress_of_at_most_what_it_has_driven",
+        statement: "H-14: whatever it steers: after a step a and a step b, (x - p) . h <= abs(a) + abs(b)",
+        domain: "all p and steps, h any unit vector",
+        claim: || progress(&Real::from_integer(1)),
+        wrong: Wrong {
+            statement: "at most 99 % of what it has driven",
+            claim: || progress(&Real::ratio(99, 100)),
+        },
+    },
+    Theorem {
+        id: "the_last_place_is_at_s_stop_and_a_path_is_no_longer_than_its_length",
+        statement: "H-14: progress and length of the first place are 0; the progress of the last one is s_stop, or its length \
+                    above 2 s_stop + 1 m; from place to place the length grows by at least their distance; a place knows \
+                    the length at the place after it, and its least progress is at most that of it and its neighbours, or 0",
+        domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/4 m in x and in y \
+                 from what is before; s_stop at most 1/4 m; tau = 0",
+        claim: || measures(at_most),
+        wrong: Wrong { statement: "by more than their distance", claim: || measures(less) },
     },
     Theorem {
         id: "places_that_follow_each_other_are_at_most_d_apart",
         statement: "H-14: in x and in y",
         domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/2 m in x and in y \
-                 from what is before; s_stop at most 1/2 m; tau = 0",
+                 from what is before; s_stop at most 1/4 m; tau = 0",
         claim: || apart(&Real::ratio(1, 4)),
         wrong: Wrong { statement: "d/2 apart", claim: || apart(&Real::ratio(1, 8)) },
     },
@@ -70,33 +81,58 @@ fn is_within(vector: &Vector, most: &Real) -> Formula {
     )
 }
 
-fn all_places(scene: &Scene, trajectory: &[Point]) -> Vec<Place> {
-    let s_stop = Driving::of(scene).s_stop();
-    given(at_most(&s_stop, &Real::ratio(1, 2)));
+/// All places where s_stop is at most so much.
+fn all_places(scene: &Scene, trajectory: &[Point], most: &Real) -> Vec<Place> {
+    given(at_most(&Driving::of(scene).s_stop(), most));
     places(scene, trajectory).collect()
 }
 
-fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
-    let (scene, trajectory) = any(["1", "2"], &Real::ratio(1, 4));
-    let places = all_places(&scene, &trajectory);
+/// The progress after two steps, each any along h and across it, is at most this share of what was driven.
+fn progress(share: &Real) -> Formula {
+    let mut scene = any_cav(Profile::HARDENED);
+    let [x, y] = Real::unit("h");
+    let (p, h) = (vector("p"), Vector { x, y });
+    let [a, b] = ["a", "b"].map(|name| {
+        let Vector { x: along, y: across } = vector(name);
+        &h.scaled(&along) + &h.left().scaled(&across)
+    });
+    (scene.ego.position, scene.ego.heading) = (p.clone(), h);
+    let x = &(&p + &a) + &b;
+    at_most(&ahead(&scene, &x), &(share * (a.length() + b.length())))
+}
+
+fn measures(order: fn(&Real, &Real) -> Formula) -> Formula {
+    let (scene, trajectory) = any(["1"], &Real::ratio(1, 4));
+    let places = all_places(&scene, &trajectory, &Real::ratio(1, 4));
     let (first, last) = (&places[0], &places[places.len() - 1]);
+    let zero = Real::zero();
     let mut claims = vec![
-        equal(&first.way, &Real::zero()),
-        equal(&first.way_before, &Real::zero()),
-        equal(&last.way, &Driving::of(&scene).s_stop()),
-        Formula::from(last.way_after.is_none()),
+        equal(&first.progress, &zero),
+        equal(&first.length, &zero),
+        Formula::Any(vec![
+            equal(&last.progress, &Driving::of(&scene).s_stop()),
+            less(&greatest_length(&scene), &last.length),
+        ]),
+        Formula::from(last.length_after.is_none()),
     ];
+    let no_more = |a: &Place, b: &Place| {
+        Formula::Any(vec![equal(&a.least, &zero), at_most(&a.least, &b.progress)])
+    };
     for pair in places.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        let after = a.way_after.as_ref().map_or(Formula::Known(false), |way| equal(way, &b.way));
-        claims.extend([order(&a.way, &b.way), equal(&b.way_before, &a.way), after]);
+        let after = a.length_after.as_ref();
+        let after = after.map_or(Formula::Known(false), |length| equal(length, &b.length));
+        let grows = &b.length - &a.length;
+        let distance = (&b.pose.origin - &a.pose.origin).squared();
+        claims.extend([at_most(&zero, &grows), order(&distance, &grows.square()), after]);
+        claims.extend([no_more(a, a), no_more(a, b), no_more(b, a), no_more(b, b)]);
     }
     Formula::All(claims)
 }
 
 fn apart(most: &Real) -> Formula {
     let (scene, trajectory) = any(["1"], &Real::ratio(1, 2));
-    let places = all_places(&scene, &trajectory);
+    let places = all_places(&scene, &trajectory, &Real::ratio(1, 4));
     let near = |pair: &[Place]| is_within(&(&pair[1].pose.origin - &pair[0].pose.origin), most);
     Formula::All(places.windows(2).map(near).collect())
 }
@@ -115,7 +151,7 @@ fn between_places(least: &Real) -> Formula {
     given(at_most(&far, &Real::ratio(1, 2)));
     given(at_most(&share, &Real::from_integer(1)));
     let pose = Frame { origin: heading.scaled(&far), direction: heading };
-    let places = all_places(&scene, &[Point { t_ns: NOW_NS, pose }]);
+    let places = all_places(&scene, &[Point { t_ns: NOW_NS, pose }], &Real::ratio(1, 2));
     let covered = |pair: &[Place]| {
         let [o, q] = [0, 1].map(|k| &pair[k].pose);
         let between = &o.origin + &(&q.origin - &o.origin).scaled(&share);

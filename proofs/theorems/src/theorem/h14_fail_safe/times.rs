@@ -1,4 +1,4 @@
-//! H-14: whatever the CAV does until it brakes, it is at a place of its path between `first` and `last`
+//! H-14: whatever the CAV does until it brakes, it has driven as far as a place of its path between `first` and `last`
 //! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any acceleration that
 //! it can have; what holds of all of them is kept by each, an induction that is not part of the theorems.
 
@@ -116,10 +116,10 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "the_window_of_a_place_holds_when_the_CAV_is_there_and_at_its_neighbours",
-        statement: "H-14: first(f) and, where the CAV surely goes on, last(f) are in the window of a place for each f \
-                    from the way of the place before it to that of the place after it; so between two places \
-                    the CAV is examined at both",
-        domain: "all ways, the place one of more after it, v, tau >= 0, a_max, a_b > 0; exact reading",
+        statement: "H-14: where the progress f of the CAV is at least the least around a place, and it has driven g, from f \
+                    to the length at the place after it, first(f) and, where it surely goes on, last(g) are in the window \
+                    of the place; so between two places the CAV is examined at both",
+        domain: "all f <= g, lengths, v, tau >= 0, a_max, a_b > 0; the place one of more after it; exact reading",
         claim: || in_window(&Real::zero()),
         wrong: Wrong {
             statement: "to 1 m behind that",
@@ -316,14 +316,15 @@ fn braking(share: &Real) -> Formula {
 fn in_window(beyond: &Real) -> Formula {
     let cav = Cav::any();
     let driving = cav.driving();
-    let [before, f, after] = ["before", "f", "after"].map(way);
-    given(at_most(&before, &f));
-    given(at_most(&f, &(&after + beyond)));
+    let [least, f, g, after] = ["least", "f", "g", "after"].map(way);
+    given(at_most(&least, &f));
+    given(at_most(&f, &g));
+    given(at_most(&g, &(&after + beyond)));
     let reads = any_cav(Profile::HARDENED).reads;
-    let Window { begin, end } = window(&reads, &driving, &before, Some(&after));
+    let Window { begin, end } = window(&reads, &driving, &least, Some(&after));
     let begins = at_most(&begin, &cav.first(&f));
     let ends = end.map_or(Formula::Known(true), |end| {
-        Formula::All(vec![less(&f, &cav.s_b()), at_most(&cav.last(&f), &end)])
+        Formula::All(vec![less(&g, &cav.s_b()), at_most(&cav.last(&g), &end)])
     });
     Formula::All(vec![begins, ends])
 }
