@@ -64,7 +64,7 @@ pub fn windows() -> String {
     let (driving, points) =
         (Driving::of(&scene), scene.trajectory.as_ref().expect("it is current"));
     let [s_b, s_stop, t] = [driving.s_b(), driving.s_stop(), driving.t_stop()].map(|it| it.near());
-    let words = "A bar for each place: from first(progress of the place before) to last(length at the place after). Straight on they are one. Neighbours overlap. \
+    let words = "A bar for each place, straight on: from first at the place before to last at the place after. Neighbours overlap. \
                  Where the place after it is at s_b(v) or farther the CAV may stand: these bars end at H(w), or at T for an object that comes across.";
     let mut sheet = Sheet::new(1, [880.0, 400.0], 2);
     let look = Look {

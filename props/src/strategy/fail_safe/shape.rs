@@ -112,7 +112,7 @@ fn weave(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         let way = (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y);
         0.1 + 0.1 * base::seconds(pair[1].t_ns - pair[0].t_ns) + 0.5 * way
     });
-    let angle = 0.5 * (share * turn.fold(0.8, f64::min)).asin();
+    let angle = 0.5 * (share * turn.fold(0.4, f64::min)).asin();
     for (point, k) in points.iter_mut().zip(0_u8..).skip(1) {
         let side = if k % 2 == 0 { 1.0 } else { -1.0 };
         point.x -= side * aside * frame.sin;
