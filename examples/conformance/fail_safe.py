@@ -13,7 +13,7 @@ from functools import cached_property
 from beside import Beside
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach
-from stopping import Stop, between, displacement
+from stopping import Stop, between, cross, displacement, dot
 
 
 @dataclass
@@ -184,17 +184,27 @@ class FailSafe:
     def places(self):
         return path(self.cycle, self.stop.s_stop)
 
+    def from_line(self, x, y):
+        """How far a place is ahead on the line along the CAV's heading, and how far it is from that line."""
+        return max(ahead(x, y, self.ego), 0), abs(float(x) * self.ego["sin"] - float(y) * self.ego["cos"])
+
     def within_reach(self):
         """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once;
-        and the path goes on, neither aside nor back for long."""
+        the path goes on, neither aside nor back for long; and the headings of the places go with it."""
         aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
         for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
-            f = max(ahead(x, y, self.ego), 0)
-            far = abs(float(x) * self.ego["sin"] - float(y) * self.ego["cos"])
+            f, far = self.from_line(x, y)
             if f < self.stop.s_b and (
                     far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
                 return False
-        return self.places[-1].length <= greatest_length(self.stop.s_stop) - EPS
+        if self.places[-1].length > greatest_length(self.stop.s_stop) - EPS:
+            return False
+        for place in self.places[1:]:
+            f, far = self.from_line(place.x, place.y)
+            turn = float(f) * abs(cross(self.ego, place.heading))
+            if dot(self.ego, place.heading) <= EPS or turn > 0.17 * float(f) + 2 * far + 0.5 - EPS:
+                return False
+        return True
 
     def windows(self):
         """Of each place its pose and its window; no end where the CAV may stand."""

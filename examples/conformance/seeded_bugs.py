@@ -242,6 +242,8 @@ BUGS = [
              "[*aside, *((place.x, place.y) for place in self.places[1:])]",
              "[(place.x, place.y) for place in self.places[1:]]",
              "H-14: points of the trajectory that are no nodes are not asked for reach"),
+    hardened("heading-of-places", "fail_safe.py", "for place in self.places[1:]:\n", "for place in []:\n",
+             "H-14: the heading of a place is not asked"),
     hardened("forward-at-first", "hardened_ii.py", "if min(along_a, along_b) <", "if along_a <",
              "H-11: a step has to go forward by its first heading alone"),
     hardened("forward-at-last", "hardened_ii.py", "if min(along_a, along_b) <", "if along_b <",

@@ -4,7 +4,7 @@
 //! Plain doubles. Places count from the CAV's reference point and are below 2^26 m, so that with less than
 //! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
 
-use crate::hardened::h14_fail_safe::path::{Line, Nodes};
+use crate::hardened::h14_fail_safe::nodes::{Line, Nodes};
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego};
 use crate::numbers::plane::Vector;

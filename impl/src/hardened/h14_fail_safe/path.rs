@@ -1,90 +1,20 @@
-//! The path of the CAV: nodes, pieces and places (`spec/hardened/H-14.md#requirements-the-path`). Nothing is kept: a
+//! The path of the CAV: pieces and places (`spec/hardened/H-14.md#requirements-the-path`). Nothing is kept: a
 //! piece says where each of its places is.
 //!
 //! The places of a piece are taken with the node from which it leads, not with the one to which, so
 //! that all of them have one heading.
 
 use core::cmp::Ordering;
-use core::iter;
 
+use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
-use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::input::cycle::{Ego, TrajectoryPoint};
 use crate::numbers::exact::{Product, compare};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
-use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::{Pose, vector};
 
-/// How far ahead the first point has to be that is a node, m.
-const AHEAD: f64 = 0.125;
-/// A quarter of a metre; less for a CAV that is shorter.
-const QUARTER: f64 = 0.25;
-
-/// From the CAV through the points of the trajectory that are ahead of it, and on.
-#[derive(Clone, Copy)]
-pub(crate) struct Nodes<'c, 'a> {
-    pub(crate) cycle: &'c Cycle<'a>,
-    /// Those of the trajectory.
-    points: &'a [TrajectoryPoint],
-    /// d_p, m.
-    d: f64,
-}
-
-impl<'c, 'a> Nodes<'c, 'a> {
-    pub(crate) fn new(cycle: &'c Cycle<'a>, points: &'a [TrajectoryPoint]) -> Self {
-        // H-14.1
-        let ahead = points.iter().position(|point| is_ahead(&cycle.ego, point));
-        let points = ahead.and_then(|first| points.get(first..)).unwrap_or(&[]);
-        Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
-    }
-
-    /// Of all points of the trajectory those that are no nodes: the first ones.
-    pub(crate) fn others<'p>(&self, points: &'p [TrajectoryPoint]) -> &'p [TrajectoryPoint] {
-        points.get(..points.len().saturating_sub(self.points.len())).unwrap_or(&[])
-    }
-
-    /// The pieces in plain doubles, the last one cut off not before `s_stop`. None begins more than 1 cm beyond
-    /// it (H-14.56).
-    pub(crate) fn lines(self) -> impl Iterator<Item = Line> + Clone {
-        let ego = &self.cycle.ego;
-        let h = [ego.cos, ego.sin];
-        let s_stop = Times::<f64>::new(self.cycle).s_stop * (1.0 + 1e-9) + 1e-3;
-        let longest = longest(s_stop);
-        let mut nodes = self.points.iter();
-        let mut next = Some(([0.0; 2], h, 0.0));
-        iter::from_fn(move || {
-            let (from, heading, length) = next.take()?;
-            let Some(node) = nodes.next() else {
-                let (rate, ahead) = (split(h, heading)[0], s_stop - split(h, from)[0]);
-                let left = longest - length;
-                let more = if rate * left > ahead { ahead / rate } else { left };
-                let [x, y] = heading.map(|part| part * more);
-                let to = [from[0] + x, from[1] + y];
-                return Some(Line { from, to, heading, length, more });
-            };
-            let to = [node.x - ego.x, node.y - ego.y];
-            let [along, across] = split(heading, minus(to, from)).map(f64::abs);
-            let more = along + across;
-            let ends = split(h, to)[0] > s_stop || length + more > longest;
-            next = (!ends).then_some((to, [node.cos, node.sin], length + more));
-            Some(Line { from, to, heading, length, more })
-        })
-    }
-
-    /// How many places there are at most: of each piece as many as fit, the last one, and few more where
-    /// rounding leaves it open. What a piece costs by itself is within them.
-    pub(crate) fn most_places(self) -> f64 {
-        let places = |line: Line| {
-            let u = minus(line.to, line.from);
-            let ([x, y], [along, _]) = (u.map(f64::abs), split(line.heading, u));
-            larger(larger(x, y), along) / self.d + 5.0
-        };
-        self.lines().map(places).sum()
-    }
-}
-
-/// The same with times, in numbers with error bounds.
+/// The nodes with times, in numbers with error bounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Path<'c, 'a> {
     pub(crate) nodes: Nodes<'c, 'a>,
@@ -111,30 +41,6 @@ impl<'c, 'a> Path<'c, 'a> {
         };
         Pieces { next: Some(next), nodes: points, ends, d, first: 0 }
     }
-}
-
-/// A piece in plain doubles, from the CAV's reference point.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
-    pub(crate) from: [f64; 2],
-    pub(crate) to: [f64; 2],
-    pub(crate) heading: [f64; 2],
-    /// The length where it begins, and how much it adds to it, m.
-    pub(crate) length: f64,
-    pub(crate) more: f64,
-}
-
-/// Whether the point is more than 1/8 m ahead of the CAV (H-14.1); exact. Plain doubles err by less
-/// than 2^-50 of the sizes.
-fn is_ahead(ego: &Ego, point: &TrajectoryPoint) -> bool {
-    let (x, y) = (point.x - ego.x, point.y - ego.y);
-    let beyond = x * ego.cos + y * ego.sin - AHEAD;
-    if beyond.abs() > (x.abs() + y.abs() + 1.0) * 1e-15 {
-        return beyond > 0.0;
-    }
-    let along =
-        [Product([point.x, ego.x], [ego.cos, 0.0]), Product([point.y, ego.y], [ego.sin, 0.0])];
-    compare(&along, &[Product([AHEAD, 0.0], [1.0, 0.0])]) == Ordering::Greater
 }
 
 /// Where a piece begins.
@@ -217,7 +123,8 @@ impl Iterator for Pieces<'_> {
     type Item = Piece;
 
     /// Where it is open whether a node is beyond `s_stop`, the last place is on the piece to it, and the
-    /// node and what follows are there, too.
+    /// node and what follows are there, too. Where it is open where on the piece that is, all its places are within what
+    /// rounding leaves open of `s_stop`.
     fn next(&mut self) -> Option<Piece> {
         let node = self.next.take()?;
         let (Ends { p, h, s_stop, longest }, d, heading) =
@@ -245,12 +152,13 @@ impl Iterator for Pieces<'_> {
             Piece { node, u, gain, more, n, first, places: n, end: None, ends: self.ends };
         let ends = to.is_none() || !progress.certainly_at_most(s_stop);
         let most = if to.is_some() { n } else { i64::MAX };
-        if ends && gain.value() > 0.0 {
+        let share = (s_stop - node.progress).over(gain);
+        let is_known = share.off() * Real::integer(n).value() < 0.5;
+        if ends && gain.value() > 0.0 && is_known {
             // H-14.7
-            let share = (s_stop - node.progress).over(gain);
             piece.places =
                 piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
-            piece.end = Some(if to.is_some() { within_unit(share) } else { share });
+            piece.end = Some(share);
         }
         let is_longest = to.is_none() || !length.certainly_at_most(longest);
         if is_longest {
@@ -295,12 +203,6 @@ fn steps(from: f64, to: f64, d: f64) -> i64 {
     if fits { fewer } else { fewer.saturating_add(1) }
 }
 
-/// A number from 0 to 1, of which nothing is known when its error is large.
-fn within_unit(share: Real) -> Real {
-    let known = share.magnitude() < 2.0;
-    if known { share } else { Real::new(0.5).widened(0.5) }
-}
-
 impl Piece {
     /// The number of places.
     pub(crate) fn count(&self) -> i64 {
@@ -308,7 +210,10 @@ impl Piece {
     }
 
     /// The least k from `least` on of which that holds; `share` of u leads to about there.
-    #[allow(clippy::cast_possible_truncation, reason = "below 2^35, or a few more than there are")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "what is above is as good as without an end"
+    )]
     fn first_with(&self, share: Real, least: i64, holds: impl Fn(i64) -> bool) -> i64 {
         let guess = libm::floor(share.value() * Real::integer(self.n).value()) as i64;
         let mut near = guess.max(least)..=guess.saturating_add(2).max(least);

@@ -1,6 +1,7 @@
 //! Whether the path is within reach (`spec/hardened/H-14.md#requirements-reach`).
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
@@ -11,7 +12,7 @@ use crate::stages::distances::s_b;
 use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::vector;
 
-/// What a trajectory may start aside, m.
+/// What a trajectory may start aside, m, and what a turn may be off times f.
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
@@ -34,32 +35,50 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     if aside.is_some() {
         return aside;
     }
-    if nodes
-        .lines()
-        .all(|it| plain.is_within(it.from, it.to) && plain.is_short(it.length + it.more))
-    {
+    let holds = |ends: [[f64; 2]; 2], heading: [f64; 2], length: f64| {
+        plain.is_within(ends[0], ends[1]) && plain.is_short(length) && plain.is_along(ends, heading)
+    };
+    if nodes.lines().all(|it| holds([it.from, it.to], it.heading, it.length + it.more)) {
         return None;
     }
     let path = Path::new(nodes);
     path.pieces().find_map(|piece| {
-        let is_within = |run: [i64; 2]| {
+        let holds = |run: [i64; 2]| {
             let [[x, y, _], [to_x, to_y, length]] = piece.between(run, p);
-            plain.is_within([x, y], [to_x, to_y]) && plain.is_short(length)
+            holds([[x, y], [to_x, to_y]], piece.heading(), length)
         };
-        piece.first_place(is_within, |place| {
+        piece.first_place(holds, |place| {
             if place.number == 0 {
                 return None;
             }
-            let found = failure(cycle, &path.times, place.pose.at);
-            // H-14.61
-            let longest = longest(path.times.s_stop);
-            let witness = || Witness::of(Rule::Reach, [place.length, longest].map(Real::value));
-            let is_long = || !place.length.certainly_at_most(longest);
-            found
-                .or_else(|| is_long().then(witness))
-                .map(|witness| witness.at_point(place.point(points.len())))
+            let found = failure(cycle, &path.times, place.pose.at)
+                .or_else(|| length_failure(place, &path.times))
+                .or_else(|| heading_failure(cycle, place));
+            found.map(|witness| witness.at_point(place.point(points.len())))
         })
     })
+}
+
+fn length_failure(place: &Place, times: &Times<Real>) -> Option<Witness> {
+    // H-14.61
+    let longest = longest(times.s_stop);
+    let witness = || Witness::of(Rule::Reach, [place.length, longest].map(Real::value));
+    (!place.length.certainly_at_most(longest)).then(witness)
+}
+
+fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {
+    let ego = &cycle.ego;
+    let (h, away) = (vector([ego.cos, ego.sin]), place.pose.at - Vector::new(ego.x, ego.y));
+    let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
+    let heading = vector(place.pose.heading);
+    // H-14.62
+    let (along, turned) = (h.dot(heading), f * h.cross(heading).abs());
+    if !Real::ZERO.certainly_below(along) {
+        return Some(Witness::of(Rule::Reach, [along.value(), 0.0]));
+    }
+    let bound = Real::new(TURNED) * f + aside + aside + Real::new(ASIDE);
+    let witness = || Witness::of(Rule::Reach, [turned.value(), bound.value()]);
+    (!turned.certainly_at_most(bound)).then(witness)
 }
 
 fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness> {
@@ -96,6 +115,18 @@ impl Plain {
     /// Whether a length certainly is within the greatest.
     fn is_short(&self, length: f64) -> bool {
         length < self.longest * (1.0 - 1e-9) - 1e-6
+    }
+
+    /// Whether the heading certainly is near to that of an arc, at all that is between two places: f is greatest at one
+    /// of them, the distance least at one or 0.
+    fn is_along(&self, ends: [[f64; 2]; 2], heading: [f64; 2]) -> bool {
+        let [along, turned] = split(self.h, heading);
+        let [[f, aside], [f_to, aside_to]] = ends.map(|place| split(self.h, place));
+        let apart = aside * aside_to > 0.0;
+        let aside = if apart { smaller(aside.abs(), aside_to.abs()) } else { 0.0 };
+        let f = larger(larger(f, f_to), 0.0);
+        let error = 1e-6 + 1e-9 * f;
+        along > 1e-6 && f * (turned.abs() - TURNED) + error < 2.0 * aside + ASIDE
     }
 
     /// Whether what is between two places certainly is: the distance is greatest at one of them, the

@@ -2,7 +2,8 @@
 
 use core::cmp::Ordering::{self, Equal, Greater, Less};
 
-use crate::hardened::h14_fail_safe::path::{Line, Nodes, Path};
+use crate::hardened::h14_fail_safe::nodes::{Line, Nodes};
+use crate::hardened::h14_fail_safe::path::Path;
 use crate::input::cycle::{CrossSection, Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};

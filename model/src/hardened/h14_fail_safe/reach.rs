@@ -1,5 +1,5 @@
-//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, and the path is not
-//! too long (`spec/hardened/H-14.md#requirements-reach`).
+//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, the path is not
+//! too long, and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
@@ -12,27 +12,34 @@ use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
 /// A point before the first node, or a place other than p, with f < s_b(v) is farther aside than
-/// 0.5 m + 0.17 f + 5.75 t^2, or the length at a place is above 2 s_stop + 1 m.
+/// 0.5 m + 0.17 f + 5.75 t^2, or the length at a place is above 2 s_stop + 1 m, or a place is turned
+/// farther than an arc to it.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
     let points = trajectory[..first_node].iter();
     let of_points = points.map(|point| aside_failure(scene, &point.pose.origin)).enumerate();
     let of_places = places(scene, trajectory).map(|place| {
         let aside = aside_failure(scene, &place.pose.origin);
-        aside.or_else(|| length_failure(scene, &place))
+        let length = || length_failure(scene, &place);
+        aside.or_else(length).or_else(|| heading_failure(scene, &place))
     });
     let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
     all.find_map(|(i, failure)| Some(failure?.at_point(i)))
 }
 
+/// f = max((x - p) . h, 0) and abs((x - p) x h), m.
+fn ahead_and_aside(scene: &Scene, x: &Vector) -> [Real; 2] {
+    let aside = (x - &scene.ego.position).cross(&scene.ego.heading).abs();
+    [ahead(scene, x).max(Real::zero()), aside]
+}
+
 /// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
 fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
     let driving = Driving::of(scene);
-    let f = ahead(scene, x).max(Real::zero());
+    let [f, aside] = ahead_and_aside(scene, x);
     if !scene.reads.may_be_less(&f, &driving.s_b()) {
         return None;
     }
-    let aside = (x - &scene.ego.position).cross(&scene.ego.heading).abs();
     let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
     let limit = offset + turn * &f + grip * driving.last(&f).square();
     Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)
@@ -43,6 +50,20 @@ fn length_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     let (length, greatest) = (&place.length, greatest_length(scene));
     let is_short = scene.reads.at_most(length, &greatest);
     Witness::unless(is_short, Rule::Reach, length, &greatest)
+}
+
+/// h . h_k > 0, and f abs(h x h_k) <= 0.17 f + 2 d + 0.5 m.
+fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
+    let (reads, h, h_k) = (&scene.reads, &scene.ego.heading, &place.pose.direction);
+    let (along, zero) = (h.dot(h_k), Real::zero());
+    if !reads.greater(&along, &zero) {
+        return Some(Witness::new(Rule::Reach, &along, &zero));
+    }
+    let [f, d] = ahead_and_aside(scene, &place.pose.origin);
+    let turned = &f * h.cross(h_k).abs();
+    let [turn, offset] = [0.17, 0.5].map(Real::from_double);
+    let limit = turn * f + Real::from_integer(2) * d + offset;
+    Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

@@ -2,7 +2,8 @@
 
 use std::vec::Vec;
 
-use crate::hardened::h14_fail_safe::path::{Nodes, Path, steps};
+use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::path::{Path, steps};
 use crate::hardened::h14_fail_safe::spot::tests::standing;
 use crate::input::cycle::TrajectoryPoint;
 use crate::input::parameters::Parameters;

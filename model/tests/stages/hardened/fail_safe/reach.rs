@@ -1,7 +1,7 @@
 //! `spec/hardened/H-14.md#requirements-reach`
 
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
@@ -131,7 +131,7 @@ fn a_path_is_not_longer_than_twice_s_stop() {
     assert_eq!((it.point, it.rule, compared[0].as_str(), compared[1].as_str()), place);
     // It turns off and never comes to s_stop: laxly one that ends at 2.625 m is short enough.
     let turns =
-        |e: f64| slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.125 + e, 0.0, 1.0]]);
+        |e: f64| slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.125 + e, 0.6, 0.8]]);
     let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| safe(&turns(e)));
     assert_eq!(all, [NO, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
     assert_eq!(rule(&turns(0.0), Stage::Ii), Some(Rule::Reach));
@@ -148,6 +148,69 @@ fn at_one_place_too_far_aside_comes_before_too_long() {
         (it.rule, it.point, it.compared[0].to_string().as_str()),
         (Rule::Reach, Some(5 + 13), "0.75")
     );
+}
+
+/// H-14.62: an arc of 8 m passes, the same headings on a straight line do not.
+/// The bound is asked at a node f ahead and d aside; the piece from there has no place but the next node.
+#[test]
+fn a_place_is_not_turned_farther_than_an_arc_to_it() {
+    let path = |share: f64| {
+        let pose = |i: u8| {
+            let x = f64::from(i) / 2.0;
+            let along = (64.0 - x * x).sqrt();
+            [x, share * (8.0 - along), along / 8.0, x / 8.0]
+        };
+        leads(8.0, &[0, 1, 2, 3, 4, 5, 6, 7, 8].map(pose))
+    };
+    assert_eq!(safe(&path(1.0)), YES);
+    let Outcome::Failed(it) = outcome(&path(0.0), Stage::Ii) else { panic!("turned") };
+    let compared = it.compared[0].to_string();
+    assert_eq!((it.rule, it.point, compared.as_str()), (Rule::Reach, Some(9 + 12), "1.125"));
+    for (f, d, bound) in [(1.0, 0.0, 0.67), (2.0, 0.0, 0.84), (2.0, 0.25, 1.34), (2.0, -0.25, 1.34)]
+    {
+        for side in [-1.0, 1.0] {
+            let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| {
+                let sin: f64 = (bound + e) / f;
+                let turned = [f, d, (1.0 - sin * sin).sqrt(), side * sin];
+                safe(&leads(8.0, &[[0.0, 0.0, 1.0, 0.0], turned, [f + 0.25, d, 1.0, 0.0]]))
+            });
+            assert_eq!(all, [YES, NEAR_SAFE, NEAR_UNSAFE, NO], "{f} {d} {side}");
+        }
+    }
+}
+
+/// H-14.62: h . h_k > 0, on a route that leads off to the left by 45 degrees. H-14.61 comes first.
+#[test]
+fn a_place_does_not_look_back() {
+    let diagonal = |mut cycle: Cycle| {
+        let cross_section = |x: f64| CrossSection {
+            x,
+            y: x,
+            left: [x - 20.0, x + 20.0],
+            right: [x + 20.0, x - 20.0],
+        };
+        cycle.route.cross_sections = vec![cross_section(-100.0), cross_section(200.0)];
+        cycle
+    };
+    let turned = |x: f64, cos: f64, sin: f64| {
+        let poses = [[0.0, 0.0, 1.0, 0.0], [x, 0.0, cos, sin], [x + 0.25, 0.0, 1.0, 0.0]];
+        diagonal(leads(8.0, &poses))
+    };
+    let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
+        Outcome::Failed(it) => {
+            Some((it.rule, it.point, it.compared.each_ref().map(ToString::to_string)))
+        }
+        _ => None,
+    };
+    let witness = |point, compared: [&str; 2]| {
+        Some((Rule::Reach, Some(point), compared.map(ToString::to_string)))
+    };
+    assert_eq!(found(&turned(1.0, -0.5, 0.75f64.sqrt())), witness(3 + 4, ["-0.5", "0"]));
+    let across = [-3e-6, -0.5e-6, 0.0, 0.5e-6, 3e-6];
+    let all = across.map(|e: f64| safe(&turned(0.5, -e, (1.0 - e * e).sqrt())));
+    assert_eq!(all, [YES, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
+    let long = slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.25, -0.6, 0.8]]);
+    assert_eq!(found(&diagonal(long)), witness(3 + 2 + 9, ["2.75", "2.625"]));
 }
 
 /// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
