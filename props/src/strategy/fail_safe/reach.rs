@@ -8,19 +8,32 @@ use super::super::draw::Draw;
 use super::path::Path;
 use super::shape;
 
-/// A turn on the spot, where the CAV may stand: straight on from there `s_stop` is about as far as a path may be long (H-14.61).
-fn long(draw: &mut Draw<'_>, cycle: &Cycle, path: &Path, side: f64) -> Trajectory {
-    let (road, s_stop) = (shape::frame(cycle), base::s_stop(cycle));
-    let first = (path.s_b() + draw.pick(&[0.01, 0.5, 0.9]) * (s_stop - path.s_b())).max(0.13);
+/// A turn on the spot of a slow CAV: straight on from there `s_stop` is about as far as a path may be long (H-14.61).
+fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoint> {
+    cycle.ego.speed = draw.pick(&[0.1, 0.5]);
+    let (first, s_stop) = (draw.pick(&[0.13, 0.3, 0.5]), base::s_stop(cycle));
     let slope = (s_stop - first) / draw.near(2.0 * s_stop + 1.0 - first);
-    let angle = if draw.one_in(4) { 1.7 } else { slope.clamp(0.0, 1.0).acos() };
-    let points = (0_i32..=32).map(|k| {
-        let (x, y) = road.at(first, 0.0);
-        let turned = side * angle * f64::from(k) / 32.0;
-        let (cos, sin) = road.turn((turned.cos(), turned.sin()));
-        TrajectoryPoint { t_ns: cycle.now_ns + i64::from(k), x, y, cos, sin }
-    });
-    Trajectory { stamp_ns: cycle.now_ns, points: points.collect() }
+    let angle = slope.clamp(0.02, 1.0).acos();
+    let turn = |k: i32| (first, 0.0, side * angle * f64::from(k) / 32.0);
+    (0..=32).map(turn).map(|it| point(cycle, it)).collect()
+}
+
+/// A heading that is turned about as far as one may be where it is (H-14.62), and back.
+fn turned(draw: &mut Draw<'_>, cycle: &Cycle, side: f64) -> Vec<TrajectoryPoint> {
+    let (first, aside) = (draw.pick(&[0.7, 2.0, 4.0]), draw.pick(&[0.0, 0.1]));
+    let sine = draw.near(0.17 + (2.0 * aside + 0.5) / first);
+    let angle = sine.clamp(0.0, 1.0).asin();
+    let turn = |k: i32| (first, aside, side * angle * (1.0 - f64::from(k.abs()) / 32.0));
+    let start = [(0.0, 0.0, 0.0), (0.5 * first, 0.5 * aside, 0.0)];
+    let rest = (-32..=32).map(turn).chain([(first + 0.5, aside, 0.0)]);
+    start.into_iter().chain(rest).map(|it| point(cycle, it)).collect()
+}
+
+/// Ahead of the CAV, to the left of it, and turned to the left; its time comes later.
+fn point(cycle: &Cycle, (ahead, aside, turned): (f64, f64, f64)) -> TrajectoryPoint {
+    let road = shape::frame(cycle);
+    let ((x, y), (cos, sin)) = (road.at(ahead, aside), road.turn((turned.cos(), turned.sin())));
+    TrajectoryPoint { t_ns: 0, x, y, cos, sin }
 }
 
 /// A trajectory beside the CAV that one place of its path, or its first point, decides.
@@ -29,8 +42,14 @@ pub fn cycle(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     (cycle.parameters.start_tolerance, cycle.parameters.lateral_tolerance) = (40.0, 20.0);
     let path = Path::of(cycle);
     let side = draw.pick(&[1.0, -1.0]);
-    if draw.one_in(4) {
-        return cycle.trajectory = Some(long(draw, cycle, &path, side));
+    if draw.one_in(3) {
+        let mut points =
+            if draw.one_in(2) { long(draw, cycle, side) } else { turned(draw, cycle, side) };
+        for (point, k) in points.iter_mut().zip(0..) {
+            point.t_ns = cycle.now_ns + 20_000_000 * k;
+        }
+        cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+        return;
     }
     let bound = |f: f64| 0.5 + 0.17 * f + 5.75 * path.last(f.min(path.s_b())).powi(2);
     let (first, aside) = match draw.below(4) {
