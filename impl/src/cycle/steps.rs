@@ -59,7 +59,7 @@ pub(crate) const LISTS: [List; 7] = [
 
 impl Counts {
     /// Memory for so many tracks, detections, cross sections and stations, and what it does not bound as it usually is: 128
-    /// points, the 430 places at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks.
+    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks.
     pub(crate) fn lent(profile: Profile, lent: [usize; 4]) -> Self {
         let [tracks, detections, cross_sections, stations] = lent.map(count);
         Self {
