@@ -10,7 +10,7 @@ use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::nodes::Nodes;
-use crate::hardened::h14_fail_safe::path::{Path, Piece, Pieces, Place};
+use crate::hardened::h14_fail_safe::path::{Path, Piece, Place, Start};
 use crate::hardened::h14_fail_safe::spot::Spot;
 use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
@@ -136,14 +136,14 @@ impl<'c, 'a> Meeting<'c, 'a> {
 }
 
 /// The path from the first line of each stretch on.
-fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Pieces<'a>>; MOST] {
+fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Start<'a>>; MOST] {
     let (mut pieces, mut line) = (path.pieces(), 0);
     let mut starts = [const { None }; MOST];
     for (start, stretch) in starts.iter_mut().zip(covers.stretches()) {
         while line < stretch.lines[0] && pieces.next().is_some() {
             line = line.saturating_add(1);
         }
-        *start = Some(pieces.clone());
+        *start = Some(pieces.start);
     }
     starts
 }
@@ -157,7 +157,7 @@ struct Places<'c, 'a> {
     /// How many points the trajectory has.
     points: usize,
     ego: Ego,
-    starts: [Option<Pieces<'a>>; MOST],
+    starts: [Option<Start<'a>>; MOST],
     beside: Beside<'c, 'a>,
 }
 
@@ -182,7 +182,7 @@ impl<'c, 'a> Places<'c, 'a> {
             }
             let from = first.max(done);
             done = last.saturating_add(1);
-            let pieces = start.clone()?.take(done.saturating_sub(first));
+            let pieces = self.path.pieces_from((*start)?).take(done.saturating_sub(first));
             pieces.skip(from.saturating_sub(first)).find_map(|piece| {
                 work.add(PIECE);
                 let misses = |run| {

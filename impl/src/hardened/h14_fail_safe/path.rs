@@ -28,18 +28,20 @@ impl<'c, 'a> Path<'c, 'a> {
 
     /// The pieces with a place, in order (H-14.6).
     pub(crate) fn pieces(&self) -> Pieces<'a> {
-        let Nodes { cycle, points, d } = self.nodes;
+        let Nodes { cycle, points, .. } = self.nodes;
         let &Ego { x, y, cos, sin, .. } = &cycle.ego;
         let (at, heading) = ([x, y], [cos, sin]);
         let next =
             Node { at, heading, progress: Real::ZERO, length: Real::ZERO, before: Real::ZERO };
-        let ends = Ends {
-            p: at,
-            h: vector(heading),
-            s_stop: self.times.s_stop,
-            longest: longest(self.times.s_stop),
-        };
-        Pieces { next: Some(next), nodes: points, ends, d, first: 0 }
+        self.pieces_from(Start { next: Some(next), nodes: points, first: 0 })
+    }
+
+    /// The rest of them.
+    pub(crate) fn pieces_from(&self, start: Start<'a>) -> Pieces<'a> {
+        let &Ego { x, y, cos, sin, .. } = &self.nodes.cycle.ego;
+        let s_stop = self.times.s_stop;
+        let (h, longest) = (vector([cos, sin]), longest(s_stop));
+        Pieces { start, ends: Ends { p: [x, y], h, s_stop, longest }, d: self.nodes.d }
     }
 }
 
@@ -69,12 +71,17 @@ fn share(k: i64, n: i64) -> Real {
 }
 
 /// See `Path::pieces`.
-#[derive(Clone)]
 pub(crate) struct Pieces<'p> {
-    next: Option<Node>,
-    nodes: &'p [TrajectoryPoint],
+    pub(crate) start: Start<'p>,
     ends: Ends,
     d: f64,
+}
+
+/// What pieces are left.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'p> {
+    next: Option<Node>,
+    nodes: &'p [TrajectoryPoint],
     first: i64,
 }
 
@@ -95,7 +102,7 @@ pub(crate) struct Piece {
     places: i64,
     /// Where the last of all is, if it is here: this times u from the node.
     end: Option<Real>,
-    ends: Ends,
+    s_stop: Real,
 }
 
 /// A place, and where the CAV has been before and is after.
@@ -126,10 +133,10 @@ impl Iterator for Pieces<'_> {
     /// node and what follows are there, too. Where it is open where on the piece that is, all its places are within what
     /// rounding leaves open of `s_stop`.
     fn next(&mut self) -> Option<Piece> {
-        let node = self.next.take()?;
+        let node = self.start.next.take()?;
         let (Ends { p, h, s_stop, longest }, d, heading) =
             (self.ends, self.d, vector(node.heading));
-        let to = self.nodes.split_first();
+        let to = self.start.nodes.split_first();
         // H-14.59
         let (u, n, more) = match to {
             Some((to, _)) => {
@@ -147,9 +154,8 @@ impl Iterator for Pieces<'_> {
             Some((to, _)) => Vector::between(p, [to.x, to.y]).dot(h),
             None => node.progress + gain,
         };
-        let (length, first) = (node.length + more, self.first);
-        let mut piece =
-            Piece { node, u, gain, more, n, first, places: n, end: None, ends: self.ends };
+        let (length, first) = (node.length + more, self.start.first);
+        let mut piece = Piece { node, u, gain, more, n, first, places: n, end: None, s_stop };
         let ends = to.is_none() || !progress.certainly_at_most(s_stop);
         let most = if to.is_some() { n } else { i64::MAX };
         let share = (s_stop - node.progress).over(gain);
@@ -174,9 +180,9 @@ impl Iterator for Pieces<'_> {
         if let Some((to, rest)) = to.filter(|_| !ends || progress.possibly_at_most(s_stop)) {
             let (at, heading) = ([to.x, to.y], [to.cos, to.sin]);
             let before = piece.progress(n.saturating_sub(1));
-            self.next = Some(Node { at, heading, progress, length, before });
-            self.nodes = rest;
-            self.first = self.first.saturating_add(piece.count());
+            self.start.next = Some(Node { at, heading, progress, length, before });
+            self.start.nodes = rest;
+            self.start.first = first.saturating_add(piece.count());
         }
         Some(piece)
     }
@@ -240,7 +246,7 @@ impl Piece {
     /// Place k from the node on (H-14.4), the last one of all with the heading of its piece
     /// (H-14.8).
     pub(crate) fn place(&self, k: i64) -> Place {
-        let (next, s_stop) = (k.saturating_add(1), self.ends.s_stop);
+        let (next, s_stop) = (k.saturating_add(1), self.s_stop);
         let is_end = |k: i64| self.end.is_some() && k >= self.places;
         let progress = |k: i64| if is_end(k) { s_stop } else { self.progress(k) };
         let before = if k == 0 { self.node.before } else { progress(k.saturating_sub(1)) };
