@@ -10,7 +10,7 @@ use super::shape;
 
 /// A turn on the spot of a slow CAV: straight on from there `s_stop` is about as far as a path may be long (H-14.61).
 fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoint> {
-    cycle.ego.speed = draw.pick(&[0.1, 0.5]);
+    (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[0.1, 0.5]), 0.5);
     let (first, s_stop) = (draw.pick(&[0.13, 0.3, 0.5]), base::s_stop(cycle));
     let slope = (s_stop - first) / draw.near(2.0 * s_stop + 1.0 - first);
     let angle = slope.clamp(0.02, 1.0).acos();
