@@ -1198,7 +1198,7 @@ MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
                                     struct MufasaRequesterState *state);
 
 // The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
-// 256 detections and 576 cross sections.
+// 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
 // Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.

@@ -306,7 +306,7 @@ static void a_status_of_the_settings_has_a_field(void) {
   is_about(&it, MUFASA_STATUS_OK, "");
   it.most_cross_sections = 4096;
   problem = is_about(&it, MUFASA_STATUS_TOO_SLOW, "most_cross_sections");
-  EXPECT(problem.value == 4096 && problem.most >= 576 && problem.most < 4096);
+  EXPECT(problem.value == 4096 && problem.most >= 528 && problem.most < 4096);
   it.most_cross_sections = (uint32_t)problem.most;
   is_about(&it, MUFASA_STATUS_OK, "");
   it.most_stations = 1000000;

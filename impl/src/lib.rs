@@ -34,8 +34,8 @@
 //!     columns: &mut vec![Column::default(); 68],
 //!     detections: &mut vec![Detection::default(); Memory::detections_for(64)],
 //!     slots: &mut vec![Slot::default(); Memory::slots_for(64)],
-//!     cross_sections: &mut vec![CrossSection::default(); 576],
-//!     blocks: &mut vec![Block::default(); Block::needed(576)],
+//!     cross_sections: &mut vec![CrossSection::default(); 528],
+//!     blocks: &mut vec![Block::default(); Block::needed(528)],
 //! };
 //! let mut monitor = Monitor::new(settings, memory)?;
 //! let at = |x| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };

@@ -48,7 +48,7 @@ pub struct MufasaMonitorSettings {
 }
 
 /// The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
-/// 256 detections and 576 cross sections.
+/// 256 detections and 528 cross sections.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonitorSettings {
     // A period below 0 is refused later.
@@ -66,7 +66,7 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         most_tracks: 128,
         most_points: 128,
         most_detections: 256,
-        most_cross_sections: 576,
+        most_cross_sections: 528,
     }
 }
 

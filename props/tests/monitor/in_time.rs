@@ -32,7 +32,7 @@ fn memory([tracks, detections, cross_sections]: [usize; 3]) -> Lent {
 #[test]
 fn the_recommended_lists_are_checked_in_time() {
     let settings = Settings::new(Duration::from_millis(50));
-    assert!(Monitor::new(settings, memory([128, 256, 576]).memory()).is_ok());
+    assert!(Monitor::new(settings, memory([128, 256, 528]).memory()).is_ok());
     let all = || Monitor::new(settings, memory([1024, 2048, 8192]).memory()).map(drop);
     assert!(matches!(all(), Err(MonitorError::TooSlow { most: 0, .. })));
     assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
@@ -79,7 +79,7 @@ fn the_recommended_lists_are_in_time_at_30_metres_a_second() {
         tracks: 128,
         detections: 256,
         lists: 3,
-        cross_sections: 576,
+        cross_sections: 528,
         stations: 8,
         ..counts
     };
