@@ -75,7 +75,7 @@ fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
     if cases > 0 {
         let (count, seeds) = (bugs.iter().filter(by_cases).count(), record.seeds);
         ways.push(format!(
-            "{cases} random cases find {count} with a chance of at least {LIKELY} % ({seeds} seeds)"
+            "{cases} random cases find {count} with a chance of at least {LIKELY} % (seeds: {seeds})"
         ));
     }
     let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
@@ -304,12 +304,12 @@ mod tests {
         assert_eq!(
             say(5, 100),
             "what that means: of 3 bugs seeded in programs, of this profile and these kinds, the \
-             vectors find 1, 100 random cases find 1 with a chance of at least 99 % (2 seeds);\n\
+             vectors find 1, 100 random cases find 1 with a chance of at least 99 % (seeds: 2);\n\
              least likely by the cases: written 0 %, hidden 50 %;\n\
              found in neither way: hidden"
         );
         assert!(say(5, 99).ends_with(
-            "find 0 with a chance of at least 99 % (2 seeds);\n\
+            "find 0 with a chance of at least 99 % (seeds: 2);\n\
              least likely by the cases: written 0 %, drawn 50 %, hidden 50 %;\n\
              found in neither way: hidden, drawn"
         ));
