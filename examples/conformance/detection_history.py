@@ -11,6 +11,7 @@ from collections import Counter
 from geometry import EPS, distance
 
 S = 10**9  # ns
+STOOD = 0.3  # m; no farther from where it is did a detection stand
 
 
 def gap(item, track, t):
@@ -138,11 +139,24 @@ class Seen:
         return any(self.may_come_from(self.detections[d], one["items"][own], one)
                    for d in unexplained)
 
+    def has_stood(self, detection):
+        """Whether it is where each usable list has an item, and two of them are at most 250 ms apart."""
+        ages = [one["age_ns"] for one in self.lists]
+        return any(0 < b - a <= S // 4 for a in ages for b in ages) and all(
+            any(distance(item, detection) <= STOOD - EPS for item in one["items"])
+            for one in self.lists)
+
+    def pasts(self, detection, one):
+        """The items of a list to ask for where a detection was: of what stood, only those near it."""
+        if not self.has_stood(detection):
+            return one["items"]
+        return [item for item in one["items"] if distance(item, detection) <= STOOD + EPS]
+
     def motions(self):
         """The motions of detections that H-14 examines: each with where it was how long ago, in ns."""
         for i in self.sure:
             one, detection = self.seen_as(i), self.detections[self.detection[i]]
-            for item in one["items"]:
+            for item in self.pasts(detection, one):
                 if self.past_gap(item, self.tracks[i], one) <= self.reach(one) + EPS:
                     yield detection, item, one["age_ns"]
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
@@ -150,7 +164,7 @@ class Seen:
             disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
             asked = {*unexplained, *disputed}
             for d, detection in enumerate(self.detections):
-                for item in self.reference["items"]:
+                for item in self.pasts(detection, self.reference):
                     moves = d in asked and self.may_come_from(detection, item, self.reference)
                     if moves or self.may_stand(detection, item):
                         yield detection, item, self.reference["age_ns"]

@@ -44,7 +44,7 @@ def parted(cycle):
 
 def pieces(cycle):
     """Of each piece: from one place to the next (x, y, length), how often, and the headings on the
-    piece and at its end. The last one goes straight on without an end."""
+    piece and at its end. The last one goes straight on without an end (0 times)."""
     ego = cycle["ego"]
     d = min(Fraction(1, 4), Fraction(ego["length"]))
     nodes = [ego, *parted(cycle)[1]]
@@ -52,9 +52,9 @@ def pieces(cycle):
         x, y = displacement(a, b)
         n = max(1, math.ceil(abs(x) / d), math.ceil(abs(y) / d))
         length = abs(ahead(x, y, a)) + abs(ahead(y, -x, a))
-        yield (x / n, y / n, length / n), range(1, n + 1), a, b
+        yield (x / n, y / n, length / n), n, a, b
     end = nodes[-1]
-    yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), itertools.count(1), end, end
+    yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), 0, end, end
 
 
 def greatest_length(s_stop):
@@ -63,23 +63,22 @@ def greatest_length(s_stop):
 
 
 def path(cycle, s_stop):
-    """The places, the last one where the progress is s_stop; or the first one that is too far along
-    the path, which is not within reach (nobody asks for its heading)."""
+    """The places, the last one where the progress is s_stop; or the first one that is farther from p,
+    as in a sharp turn, or too far along the path, which is not within reach."""
     ego = cycle["ego"]
     places = [Place(Fraction(0), Fraction(0), Fraction(0), Fraction(0), ego)]
-    for step, numbers, heading, end in pieces(cycle):
+    for step, n, heading, end in pieces(cycle):
         node = places[-1]
-        for k in numbers:
+        for k in range(1, n + 1) if n else itertools.count(1):
             o, x, y = places[-1], node.x + k * step[0], node.y + k * step[1]
             progress, length = ahead(x, y, ego), node.length + k * step[2]
             if progress > s_stop:
                 part = (s_stop - o.progress) / (progress - o.progress)
                 x, y = o.x + part * (x - o.x), o.y + part * (y - o.y)
                 return [*places, Place(x, y, s_stop, o.length + part * step[2], heading)]
-            places.append(Place(x, y, progress, length, heading))
-            if length > greatest_length(s_stop):
+            places.append(Place(x, y, progress, length, end if k == n else heading))
+            if length > greatest_length(s_stop) or x**2 + y**2 > s_stop**2:
                 return places
-        places[-1].heading = end
 
 
 def sweeps(sides, dx, dy, ux, uy, r1, r2):
@@ -201,8 +200,9 @@ class FailSafe:
             return False
         for place in self.places[1:]:
             f, far = self.from_line(place.x, place.y)
-            turn = float(f) * abs(cross(self.ego, place.heading))
-            if dot(self.ego, place.heading) <= EPS or turn > 0.17 * float(f) + 2 * far + 0.5 - EPS:
+            f, turned = float(f), abs(cross(self.ego, place.heading))
+            if (dot(self.ego, place.heading) <= EPS or turned > 0.17 + f / 3 - EPS
+                    or f * turned > 0.17 * f + 2 * far + 0.5 - EPS):
                 return False
         return True
 

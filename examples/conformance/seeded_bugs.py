@@ -255,6 +255,11 @@ BUGS = [
     hardened("seen-in-ms", "fail_safe.py", 'self.age_ns, self.a_b = cycle["now_ns"] - stamp_ns,',
              'self.age_ns, self.a_b = (cycle["now_ns"] - stamp_ns) // 10**6 * 10**6,',
              "H-14: the age of a list in whole ms"),
+    hardened("stood-in-some-list", "detection_history.py", "for a in ages for b in ages) and all(",
+             "for a in ages for b in ages) and any(",
+             "SEEN-18, H-14: what is where some usable list has an item has stood"),
+    hardened("no-end-by-distance", "fail_safe.py", " or x**2 + y**2 > s_stop**2", "",
+             "H-14: the path does not end where it is farther than s_stop from the CAV"),
     monitor("tracks-without-look", """ and (
                 self.is_current(cycle["detections"], now_ns)):""", ":",
             "MON-02: tracks come out of a cycle in which stage i did not run", "paper"),

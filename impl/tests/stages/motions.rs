@@ -31,7 +31,8 @@ fn explained(configuration: Configuration) -> Scene {
     let mut scene = crossing(configuration);
     scene.detections = Some(vec![detection(3.0, 50.1), detection(5.0, -4.5)]);
     scene.tracks = Some(vec![track(1, 3.0, 50.0), track(2, 5.0, -4.5)]);
-    let items = |ms: i64| vec![detection(5.0, -4.5), detection(5.0, -4.5 - 8.0 * ms as f64 * 1e-3)];
+    let items =
+        |ms: i64| vec![detection(5.35, -4.5), detection(5.0, -4.5 - 8.0 * ms as f64 * 1e-3)];
     scene.history = [300, 500].map(|ms| (ms * MS, items(ms))).to_vec();
     scene
 }
@@ -59,7 +60,7 @@ fn a_confirmed_track_may_come_from_every_item_near_its_past() {
         let mut scene = explained(MotRemote);
         scene.history = vec![
             (300 * MS, vec![detection(5.0, -4.5)]),
-            (500 * MS, vec![detection(5.0, -4.5 - away), detection(5.0, -4.4)]),
+            (500 * MS, vec![detection(5.0, -4.5 - away), detection(5.0, -4.1)]),
         ];
         assert_eq!(met(&scene), expected, "{away}");
         if expected {

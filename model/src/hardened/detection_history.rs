@@ -1,4 +1,4 @@
-//! What the CAV saw itself (SEEN-01 to SEEN-17, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
+//! What the CAV saw itself (SEEN-01 to SEEN-18, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
 //! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
 use crate::input::profile::HardenedRule;
@@ -165,6 +165,25 @@ pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [us
     let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
     is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
         && (others.peek().is_none() || others.any(|(_, other)| supports(other)))
+}
+
+/// How far from what stood its items are at most: 0.3 m.
+pub fn stands_within() -> Real {
+    Real::from_double(0.3)
+}
+
+/// The current detection stood: the ages of two usable lists differ by at most 250 ms, and each usable list has an item
+/// at distance <= 0.3 m from it.
+pub fn has_stood(scene: &Scene, lists: &[Usable], d: &Object) -> bool {
+    let (place, limit) = (&d.frame.origin, stands_within());
+    let is_near = |item: &Object| {
+        !place.is_far(&item.frame.origin, &scene.reads.lowered(&limit))
+            && scene.reads.at_most(&place.distance(&item.frame.origin), &limit)
+    };
+    let is_soon = |(k, list): (usize, &Usable)| {
+        lists[..k].iter().any(|other| (list.age_ns - other.age_ns).abs() <= 250_000_000)
+    };
+    lists.iter().enumerate().any(is_soon) && lists.iter().all(|list| list.items.iter().any(is_near))
 }
 
 /// w = (d - d') / dt, m/s.

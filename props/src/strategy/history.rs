@@ -113,3 +113,14 @@ pub fn exact(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx, vy
     };
     cycle.detection_history = ages.iter().map(list).collect();
 }
+
+/// An item in each list where the thing is, of one list about so far away that it stood, or just did not (SEEN-18).
+pub fn stand(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64)) {
+    let far = draw.below(cycle.detection_history.len().max(1));
+    for (list, k) in cycle.detection_history.iter_mut().zip(0..) {
+        let distance = if k == far { draw.near(0.3) } else { draw.pick(&[0.0, 0.1]) };
+        let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);
+        let (x, y) = (x + distance * cos, y + distance * sin);
+        list.items.push(Detection { x, y, cos: 1.0, sin: 0.0, length: 0.5, width: 0.5 });
+    }
+}

@@ -46,6 +46,9 @@ pub fn carry(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
     } else {
         history::exact(draw, cycle, at, velocity);
     }
+    if draw.one_in(5) {
+        history::stand(draw, cycle, at);
+    }
     if draw.one_in(6) {
         // The fastest that is looked for, or just not.
         cycle.parameters.v_object = draw.near(velocity.0.hypot(velocity.1)).clamp(1e-3, 1e3);

@@ -9,6 +9,11 @@ use crate::input::scratch::{Column, Row};
 use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
 
+/// So near to where it is an object was that stood, m.
+const STOOD: f64 = 0.3;
+/// How much the ages of two of the lists that show it differ at most, ns.
+const APART_NS: i64 = 250_000_000;
+
 /// The list of a track.
 #[derive(Clone, Copy)]
 pub(crate) struct Past<'c> {
@@ -109,6 +114,38 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     /// At most so far from an item of the reference list a detection may have stood, m.
     pub(crate) fn stands_within(&self) -> f64 {
         self.cycle.parameters.theta_track_max + CLOSE
+    }
+
+    /// Whether a detection stood (SEEN-18, kept in `stood`), and not where an item is (H-14.63). All lists are listed.
+    pub(crate) fn is_elsewhere(
+        &self,
+        now: &Detection,
+        [x, y]: [f64; 2],
+        stood: &mut Option<bool>,
+        columns: &[Column],
+    ) -> bool {
+        let (x, y, far) = (now.x - x, now.y - y, STOOD + CLOSE);
+        x * x + y * y > far * far && *stood.get_or_insert_with(|| self.has_stood(now, columns))
+    }
+
+    fn has_stood(&self, now: &Detection, columns: &[Column]) -> bool {
+        let (near, around) = (STOOD - CLOSE, |at: f64| [at - STOOD - MARGIN, at + STOOD + MARGIN]);
+        let usable = || self.history.usable.iter().flatten();
+        let is_soon = |(one, next): (&UsableList<'_>, &UsableList<'_>)| {
+            next.age_ns.saturating_sub(one.age_ns) <= APART_NS
+        };
+        let mut lists = self.squares.iter().flatten().zip(usable());
+        // The stamps of the lists decrease.
+        usable().zip(usable().skip(1)).any(is_soon)
+            && lists.all(|(squares, usable)| {
+                self.work.add(u64::try_from(usable.items.len()).unwrap_or(u64::MAX));
+                let mut is_there = false;
+                squares.for_each_in(columns, [around(now.x), around(now.y)], |_, [x, y]| {
+                    let (x, y) = (now.x - x, now.y - y);
+                    is_there |= x * x + y * y <= near * near;
+                });
+                is_there
+            })
     }
 
     /// Whether a detection may come from an item of a list, except for the distance: whether an item of

@@ -77,8 +77,8 @@ impl Motions<'_, '_, '_> {
                 let item = scratch.rows.get(order).and_then(Row::confirmed_by);
                 let Some(detection) = item.map(usize::from) else { continue };
                 let Some(now) = list.items.get(detection) else { continue };
-                let now = Motion::new(MovingRectangle::detection(now), age_ns);
-                self.confirmed((order, track), (detection, &now), scratch);
+                let motion = Motion::new(MovingRectangle::detection(now), age_ns);
+                self.confirmed((order, track), (detection, now), &motion, scratch);
             }
         }
         for (detection, now) in list.items.iter().enumerate() {
@@ -135,7 +135,8 @@ impl Motions<'_, '_, '_> {
     fn confirmed(
         &mut self,
         (order, track): (usize, &Track),
-        (detection, now): (usize, &Motion),
+        (detection, now): (usize, &Detection),
+        motion: &Motion,
         scratch: &mut Scratch<'_>,
     ) {
         let past = scratch.rows.get(order).and_then(|row| self.lists.past_of(row));
@@ -144,18 +145,20 @@ impl Motions<'_, '_, '_> {
         let Some((around, (dx, dy))) = past.map(|it| (it.around(track), it.moved(track))) else {
             return;
         };
-        let rate = 1.0 / usable.age;
+        let (scratch, rate, mut stood) = (&*scratch, 1.0 / usable.age, None);
         squares.for_each_in(scratch.columns, around, |item, before| {
             if self.lists.work.is_too_much() {
                 return;
             }
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
-            let motion = now.coming_from(before, usable.age_ns, rate);
+            let motion = motion.coming_from(before, usable.age_ns, rate);
             if x * x + y * y <= reach * reach {
                 self.lists.work.add(PAIR);
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
-                self.keep_pair(&motion, &pair, |_| true);
+                self.keep_pair(&motion, &pair, |it| {
+                    !it.lists.is_elsewhere(now, before, &mut stood, scratch.columns)
+                });
             }
         });
     }
@@ -180,7 +183,7 @@ impl Motions<'_, '_, '_> {
             return;
         }
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
-        let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
+        let (scratch, seen, mut stood_still) = (&*scratch, self.meeting.seen_from(motion), None);
         squares.for_each_in(scratch.columns, area, |item, before| {
             if self.lists.work.is_too_much() {
                 return;
@@ -201,7 +204,8 @@ impl Motions<'_, '_, '_> {
             if is_pair() {
                 self.keep_pair(&motion, &pair, |it| {
                     let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
-                    stands || track.is_none_or(is_disputed)
+                    !it.lists.is_elsewhere(now, before, &mut stood_still, scratch.columns)
+                        && (stands || track.is_none_or(is_disputed))
                 });
             }
         });

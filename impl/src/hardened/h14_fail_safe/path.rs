@@ -56,7 +56,8 @@ struct Node {
     before: Real,
 }
 
-/// Where the list of places ends: where the progress from p on is `s_stop`, or behind the length that is the greatest.
+/// Where the list of places ends: where the progress from p on is `s_stop`, or the distance more than that, or the length
+/// more than the greatest.
 #[derive(Clone, Copy, Debug)]
 struct Ends {
     p: [f64; 2],
@@ -100,8 +101,10 @@ pub(crate) struct Piece {
     pub(crate) first: i64,
     /// How many places there are, but for the last of all.
     places: i64,
-    /// Where the last of all is, if it is here: this times u from the node.
+    /// Where the last of all is, if it is at `s_stop` and here: this times u from the node.
     end: Option<Real>,
+    /// Whether another one is the last of all, the last one here.
+    is_over: bool,
     s_stop: Real,
 }
 
@@ -134,8 +137,7 @@ impl Iterator for Pieces<'_> {
     /// rounding leaves open of `s_stop`.
     fn next(&mut self) -> Option<Piece> {
         let node = self.start.next.take()?;
-        let (Ends { p, h, s_stop, longest }, d, heading) =
-            (self.ends, self.d, vector(node.heading));
+        let (Ends { p, h, s_stop, .. }, d, heading) = (self.ends, self.d, vector(node.heading));
         let to = self.start.nodes.split_first();
         // H-14.59
         let (u, n, more) = match to {
@@ -155,7 +157,8 @@ impl Iterator for Pieces<'_> {
             None => node.progress + gain,
         };
         let (length, first) = (node.length + more, self.start.first);
-        let mut piece = Piece { node, u, gain, more, n, first, places: n, end: None, s_stop };
+        let (places, end, is_over) = (n, None, false);
+        let mut piece = Piece { node, u, gain, more, n, first, places, end, is_over, s_stop };
         let ends = to.is_none() || !progress.certainly_at_most(s_stop);
         let most = if to.is_some() { n } else { i64::MAX };
         let share = (s_stop - node.progress).over(gain);
@@ -166,16 +169,12 @@ impl Iterator for Pieces<'_> {
                 piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
             piece.end = Some(share);
         }
-        let is_longest = to.is_none() || !length.certainly_at_most(longest);
-        if is_longest {
-            // H-14.60
-            let share = (longest - node.length).over(more);
-            let beyond = piece.first_with(share, 0, |k| longest.certainly_below(piece.length(k)));
-            let places = beyond.saturating_add(1);
-            if places <= piece.places || piece.end.is_none() && to.is_none() {
-                (piece.places, piece.end) = (places, None);
-                return Some(piece);
-            }
+        // H-14.60
+        let beyond = piece.first_beyond(self.ends, to.is_none());
+        if beyond < piece.places || piece.end.is_none() && to.is_none() {
+            piece.places = beyond.saturating_add(1);
+            (piece.end, piece.is_over) = (None, true);
+            return Some(piece);
         }
         if let Some((to, rest)) = to.filter(|_| !ends || progress.possibly_at_most(s_stop)) {
             let (at, heading) = ([to.x, to.y], [to.cos, to.sin]);
@@ -226,6 +225,34 @@ impl Piece {
         near.find(|&k| holds(k)).unwrap_or(guess.saturating_add(3).max(least))
     }
 
+    /// The first place that certainly is longer than the greatest or farther from p than `s_stop`; none of a piece
+    /// with an end is beyond n. Of places in a line the squared distance is convex, and no more than that of the node or of
+    /// the end of the piece.
+    fn first_beyond(&self, Ends { p, s_stop, longest, .. }: Ends, is_endless: bool) -> i64 {
+        let limit = s_stop.squared();
+        let from_p = Vector::between(p, self.node.at);
+        let is_far = |k: i64| {
+            let away = from_p + self.u.times(share(k, self.n));
+            limit.certainly_below(away.dot(away))
+        };
+        let mut beyond = if is_endless { i64::MAX } else { self.n };
+        if is_far(0) {
+            return 0;
+        }
+        if is_endless || is_far(self.n) {
+            let (along, squared) = (from_p.dot(self.u), self.u.dot(self.u));
+            let left = along.squared() + squared * (limit - from_p.dot(from_p));
+            let share = (left.max(Real::ZERO).sqrt() - along).over(squared);
+            beyond = self.first_with(share, 1, is_far).min(beyond);
+        }
+        if is_endless || !(self.node.length + self.more).certainly_at_most(longest) {
+            let share = (longest - self.node.length).over(self.more);
+            let is_long = |k| longest.certainly_below(self.length(k));
+            beyond = self.first_with(share, 0, is_long).min(beyond);
+        }
+        beyond
+    }
+
     fn share(&self, k: i64) -> Real {
         match self.end {
             Some(end) if k >= self.places => end,
@@ -248,9 +275,11 @@ impl Piece {
     pub(crate) fn place(&self, k: i64) -> Place {
         let (next, s_stop) = (k.saturating_add(1), self.s_stop);
         let is_end = |k: i64| self.end.is_some() && k >= self.places;
+        let is_last = is_end(k) || self.is_over && next >= self.places;
         let progress = |k: i64| if is_end(k) { s_stop } else { self.progress(k) };
         let before = if k == 0 { self.node.before } else { progress(k.saturating_sub(1)) };
-        let (here, after) = (progress(k), progress(next));
+        let here = progress(k);
+        let after = if is_last { here } else { progress(next) };
         Place {
             number: self.first.saturating_add(k),
             pose: Pose {
@@ -260,7 +289,7 @@ impl Piece {
             progress: here,
             least: before.min(here).min(after).max(Real::ZERO),
             length: self.length(k),
-            after: (!is_end(k)).then(|| self.length(next)),
+            after: (!is_last).then(|| self.length(next)),
         }
     }
 

@@ -16,6 +16,8 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
+/// No car turns on a smaller circle, m: its radius.
+const CIRCLE: f64 = 3.0;
 /// Half of what tyres hold, m/s^2.
 const TYRES: f64 = 5.75;
 
@@ -72,13 +74,16 @@ fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {
     let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
     let heading = vector(place.pose.heading);
     // H-14.62
-    let (along, turned) = (h.dot(heading), f * h.cross(heading).abs());
+    let (along, sine) = (h.dot(heading), h.cross(heading).abs());
     if !Real::ZERO.certainly_below(along) {
         return Some(Witness::of(Rule::Reach, [along.value(), 0.0]));
     }
-    let bound = Real::new(TURNED) * f + aside + aside + Real::new(ASIDE);
-    let witness = || Witness::of(Rule::Reach, [turned.value(), bound.value()]);
-    (!turned.certainly_at_most(bound)).then(witness)
+    let turned = Real::new(TURNED);
+    let arc = [f * sine, turned * f + aside + aside + Real::new(ASIDE)];
+    let circle = [sine, turned + f.over(Real::new(CIRCLE))];
+    let beyond = |[turned, bound]: &[Real; 2]| !turned.certainly_at_most(*bound);
+    let found = [arc, circle].into_iter().find(beyond);
+    found.map(|compared| Witness::of(Rule::Reach, compared.map(Real::value)))
 }
 
 fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness> {
@@ -117,16 +122,16 @@ impl Plain {
         length < self.longest * (1.0 - 1e-9) - 1e-6
     }
 
-    /// Whether the heading certainly is near to that of an arc, at all that is between two places: f is greatest at one
-    /// of them, the distance least at one or 0.
+    /// Whether the heading certainly is near to that of an arc, and of one that a car can drive, at all that is between two
+    /// places: f is greatest at one of them and least at one, the distance least at one or 0.
     fn is_along(&self, ends: [[f64; 2]; 2], heading: [f64; 2]) -> bool {
         let [along, turned] = split(self.h, heading);
         let [[f, aside], [f_to, aside_to]] = ends.map(|place| split(self.h, place));
         let apart = aside * aside_to > 0.0;
         let aside = if apart { smaller(aside.abs(), aside_to.abs()) } else { 0.0 };
-        let f = larger(larger(f, f_to), 0.0);
-        let error = 1e-6 + 1e-9 * f;
-        along > 1e-6 && f * (turned.abs() - TURNED) + error < 2.0 * aside + ASIDE
+        let [least, f] = [smaller(f, f_to), larger(f, f_to)].map(|f| larger(f, 0.0));
+        let (error, turned) = (1e-6 + 1e-9 * f, turned.abs() - TURNED);
+        along > 1e-6 && f * turned + error < 2.0 * aside + ASIDE && CIRCLE * turned + error < least
     }
 
     /// Whether what is between two places certainly is: the distance is greatest at one of them, the

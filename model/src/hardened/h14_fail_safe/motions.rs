@@ -1,8 +1,8 @@
 //! Which objects are examined, and how they move (`spec/hardened/H-14.md#requirements-motions`).
 
 use crate::hardened::detection_history::{
-    Seen, Usable, confirmed, is_disputed, is_within, list_of, may_come_from, nearest_to_reference,
-    origin_limit, past, usable, velocity,
+    Seen, Usable, confirmed, has_stood, is_disputed, is_within, list_of, may_come_from,
+    nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
 };
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
@@ -93,7 +93,7 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     });
     let doubtful: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
     let of_tracks =
-        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, &lists, track, seen));
+        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, &lists, list, track, seen));
     let of_all = (0..list.items.len())
         .flat_map(|d| of_detection(scene, &lists, list, d, doubtful.contains(&d)));
     let moving = of_tracks.chain(of_all).map(|pair| {
@@ -115,6 +115,16 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
+/// The items that are taken of a detection d: where d stood, those at distance <= 0.3 m alone.
+fn is_taken<'a>(
+    scene: &'a Scene,
+    lists: &[Usable],
+    d: &'a Object,
+) -> impl Fn(&Object) -> bool + 'a {
+    let stood = has_stood(scene, lists, d);
+    move |item| !stood || is_within(scene, &d.frame.origin, item, &stands_within())
+}
+
 /// A detection d and an item d' of an earlier list, of which w = (d - d') / dt.
 struct Pair<'a> {
     detection: usize,
@@ -123,10 +133,11 @@ struct Pair<'a> {
 }
 
 /// The detection of a confirmed track and each item at distance <= theta_track_max + theta_velocity dt
-/// from its past, in the list of the track.
+/// from its past, in the list of the track; where d stood, of these those that are taken.
 fn of_confirmed<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
+    detections: &Detections,
     track: &Track,
     seen: &Seen,
 ) -> Vec<Pair<'a>> {
@@ -134,12 +145,17 @@ fn of_confirmed<'a>(
     let list = &lists[k];
     let past = past(&seen.place, &track.velocity, &list.dt);
     let limit = origin_limit(scene, &list.dt);
-    let is_near = |item: &usize| is_within(scene, &past, &list.items[*item], &limit);
+    let is_taken = is_taken(scene, lists, &detections.items[detection]);
+    let is_near = |item: &usize| {
+        let item = &list.items[*item];
+        is_within(scene, &past, item, &limit) && is_taken(item)
+    };
     (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
 }
 
 /// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
-/// stand) or, when d is unexplained or disputed (`doubtful`), that d may come from.
+/// stand) or, when d is unexplained or disputed (`doubtful`), that d may come from; where d stood, of these those that
+/// are taken.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
@@ -150,9 +166,11 @@ fn of_detection<'a>(
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
-    let is_pair = |item: &usize| {
+    let is_taken = is_taken(scene, lists, d);
+    let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || doubtful && may_come_from(scene, lists, d, [k, *item])
     };
+    let is_pair = |item: &usize| is_taken(&list.items[*item]) && is_candidate(item);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

@@ -151,15 +151,40 @@ fn up_to<T>(
     })
 }
 
-/// The places up to the first whose length is above the greatest. The first whose progress is above s_stop, if it
-/// comes before, gives its place to the last one.
-fn ended(
-    steps: impl Iterator<Item = Step>,
-    s_stop: Real,
+/// How long the path is, and how far from p, up to the places of a list: it ends with the first one beyond.
+#[derive(Clone)]
+struct End<'a> {
+    p: &'a Vector,
+    /// The greatest length, m.
     greatest: Real,
-) -> impl Iterator<Item = Step> {
+    /// The greatest distance from p, m; none for the places that the work counts.
+    farthest: Option<Real>,
+}
+
+impl<'a> End<'a> {
+    /// 2 s_stop + 1 m and s_stop, both moved.
+    fn new(scene: &'a Scene, by_distance: bool, moved: impl Fn(&Real) -> Real) -> Self {
+        let farthest = by_distance.then(|| moved(&Driving::of(scene).s_stop()));
+        Self { p: &scene.ego.position, greatest: moved(&greatest_length(scene)), farthest }
+    }
+
+    /// A list ends with this place: its length is above the greatest, or its distance from p.
+    fn is_at(&self, place: &Vector, length: &Real) -> bool {
+        let is_beyond = |farthest: &Real| place.distance(self.p) > *farthest;
+        *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
+    }
+}
+
+/// The places up to the first that is beyond the end. The first whose progress is above s_stop, if it comes before or
+/// there, gives its place to the last one.
+fn ended<'a>(
+    steps: impl Iterator<Item = Step> + 'a,
+    s_stop: Real,
+    end: End<'a>,
+) -> impl Iterator<Item = Step> + 'a {
     let last_at = s_stop.clone();
-    let is_last = move |step: &Step| step.progress > s_stop || step.length > greatest;
+    let is_last =
+        move |step: &Step| step.progress > s_stop || end.is_at(&step.pose.origin, &step.length);
     let mut before: Option<Step> = None;
     up_to(steps, is_last).map(move |b| {
         let here = match before.take() {
@@ -195,17 +220,35 @@ fn with_neighbours(steps: impl Iterator<Item = Step>) -> impl Iterator<Item = Pl
     })
 }
 
-/// The places in their order: up to the last one, at s_stop, if none before is too long. Laxly they end before the
-/// first whose progress is above s_stop + m, behind p at least, and have the windows of the exact model.
-pub fn places(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Place> {
+/// The places in their order: up to the last one, at s_stop, if none before is too long or too far from p. Laxly they
+/// end before the first whose progress is above s_stop + m, behind p at least, and have the windows of the exact model.
+pub fn places<'a>(scene: &'a Scene, trajectory: &'a [Point]) -> impl Iterator<Item = Place> + 'a {
+    listed(scene, trajectory, true)
+}
+
+/// The places that the list has without an end by distance, which the work counts.
+pub fn places_by_length<'a>(
+    scene: &'a Scene,
+    trajectory: &'a [Point],
+) -> impl Iterator<Item = Place> + 'a {
+    listed(scene, trajectory, false)
+}
+
+fn listed<'a>(
+    scene: &'a Scene,
+    trajectory: &'a [Point],
+    by_distance: bool,
+) -> impl Iterator<Item = Place> + 'a {
     let (reads, s_stop) = (&scene.reads, Driving::of(scene).s_stop());
-    let exact = greatest_length(scene);
-    let greatest = reads.raised(&exact);
-    let steps = ended(endless(scene, trajectory), s_stop.clone(), exact.max(greatest.clone()));
-    let listed = up_to(with_neighbours(steps), move |place| place.length > greatest);
-    let all = listed.flat_map(|place| {
+    let end = End::new(scene, by_distance, |it| reads.raised(it));
+    let exact = End::new(scene, by_distance, Real::clone);
+    let first = if reads.is_strict() { end.clone() } else { exact };
+    let steps = ended(endless(scene, trajectory), s_stop.clone(), first);
+    let moved = end.clone();
+    let is_last = move |place: &Place| moved.is_at(&place.pose.origin, &place.length);
+    let all = up_to(with_neighbours(steps), is_last).flat_map(move |place| {
         let is_last = reads.is_strict() && place.length_after.is_none();
-        if is_last { with_beyond(scene, trajectory, place) } else { vec![place] }
+        if is_last { with_beyond(scene, trajectory, &end, place) } else { vec![place] }
     });
     let is_within = move |(k, place): &(usize, Place)| {
         *k == 0 || reads.may_be_at_most(&place.progress, &s_stop)
@@ -214,12 +257,11 @@ pub fn places(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Place
 }
 
 /// What the strict model examines before the last place, and that: the places from the first whose progress is above
-/// s_stop up to the first whose progress is above s_stop + m. Their window is that of the last place, from the least
-/// progress of all of them on.
-fn with_beyond(scene: &Scene, trajectory: &[Point], last: Place) -> Vec<Place> {
+/// s_stop up to the first whose progress is above s_stop + m, if none before is beyond the end. Their window is that of
+/// the last place, from the least progress of all of them on.
+fn with_beyond(scene: &Scene, trajectory: &[Point], end: &End, last: Place) -> Vec<Place> {
     let (reads, s_stop) = (&scene.reads, Driving::of(scene).s_stop());
-    let greatest = reads.raised(&greatest_length(scene));
-    let is_last = |step: &Step| step.length > greatest;
+    let is_last = |step: &Step| end.is_at(&step.pose.origin, &step.length);
     let beyond = up_to(endless(scene, trajectory), is_last)
         .skip_while(|step| step.progress <= s_stop)
         .take_while(|step| reads.may_be_at_most(&step.progress, &s_stop))
@@ -255,7 +297,8 @@ pub fn ends(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
     of_pieces.chain(behind.into_iter().flat_map(|end| [node.clone(), end])).collect()
 }
 
-/// How many places the exact model has, without going through them.
+/// How many places the exact model has without an end by distance, not going through them: an upper bound of how many
+/// it has.
 pub fn count(scene: &Scene, trajectory: &[Point]) -> i128 {
     let d = d(scene);
     let (pieces, node, length) = pieces(scene, trajectory);

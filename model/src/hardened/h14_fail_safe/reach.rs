@@ -52,7 +52,7 @@ fn length_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     Witness::unless(is_short, Rule::Reach, length, &greatest)
 }
 
-/// h . h_k > 0, and f abs(h x h_k) <= 0.17 f + 2 d + 0.5 m.
+/// h . h_k > 0, f abs(h x h_k) <= 0.17 f + 2 d + 0.5 m, and abs(h x h_k) <= 0.17 + f/3 m.
 fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     let (reads, h, h_k) = (&scene.reads, &scene.ego.heading, &place.pose.direction);
     let (along, zero) = (h.dot(h_k), Real::zero());
@@ -60,10 +60,13 @@ fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
         return Some(Witness::new(Rule::Reach, &along, &zero));
     }
     let [f, d] = ahead_and_aside(scene, &place.pose.origin);
-    let turned = &f * h.cross(h_k).abs();
     let [turn, offset] = [0.17, 0.5].map(Real::from_double);
-    let limit = turn * f + Real::from_integer(2) * d + offset;
-    Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
+    let sine = h.cross(h_k).abs();
+    let arc = (&f * &sine, &turn * &f + Real::from_integer(2) * d + offset);
+    let circle = (sine, turn + f / Real::from_integer(3));
+    [arc, circle].into_iter().find_map(|(turned, limit)| {
+        Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
+    })
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

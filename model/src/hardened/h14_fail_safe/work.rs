@@ -16,7 +16,7 @@ use crate::numbers::vector::Vector;
 
 /// U being the items of all usable lists: 240 + U for each current detection and each item of the reference list
 /// that are near each other, and 64 + U for each unexplained one and each item of a usable list. Near is at most
-/// v_object dt + theta_track_max + 1 cm.
+/// v_object dt + theta_track_max + 1 cm. And 2 U for each current detection.
 pub fn of_pairs(scene: &Scene) -> i128 {
     let (lists, confirmed) = (usable(scene), confirmed(scene));
     let u = lists.iter().map(|list| list.items.len() as i128).sum::<i128>();
@@ -31,19 +31,21 @@ pub fn of_pairs(scene: &Scene) -> i128 {
         list.items.iter().filter(is_near).count() as i128
     };
     let detections = scene.detections.iter().flat_map(|list| list.items.iter().enumerate());
-    let pairs = detections.flat_map(|(d, detection)| {
+    let of_detections = detections.map(|(d, detection)| {
         let is_explained = confirmed.iter().any(|(_, seen)| seen.detection == Some(d));
-        lists.iter().enumerate().map(move |(k, list)| {
+        let of_lists = lists.iter().enumerate().map(|(k, list)| {
             let of_reference = if Some(k) == reference { 240 + u } else { 0 };
             let each = of_reference + if is_explained { 0 } else { 64 + u };
             if each > 0 { each * near(detection, list) } else { 0 }
-        })
+        });
+        of_lists.sum::<i128>() + 2 * u
     });
-    pairs.sum()
+    of_detections.sum()
 }
 
-/// K being the places, E those whose progress is above s_stop - delta, and C the cross sections: 320 for each motion;
-/// where it comes near the path, 640 + 400 (K + E) more; where it keeps beside as well, 320 + 560 K + 400 E + 32 C.
+/// K being the places that the list has without an end by distance, E those whose progress is above s_stop - delta, and
+/// C the cross sections: 320 for each motion; where it comes near the path, 640 + 400 (K + E) more; where it keeps
+/// beside as well, 320 + 560 K + 400 E + 32 C.
 pub fn of_motions(
     scene: &Scene,
     trajectory: &[Point],
@@ -51,7 +53,7 @@ pub fn of_motions(
     beside_route: &LazyCell<BesideRoute, impl FnOnce() -> BesideRoute>,
 ) -> i128 {
     let last = Driving::of(scene).s_stop() - &scene.reads.delta;
-    let places: Vec<Place> = path::places(scene, trajectory).collect();
+    let places: Vec<Place> = path::places_by_length(scene, trajectory).collect();
     let k = places.len() as i128;
     let e = places.iter().filter(|place| place.progress > last).count() as i128;
     let c = scene.route.cross_sections.len() as i128;

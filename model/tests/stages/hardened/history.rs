@@ -2,7 +2,7 @@
 //! is too close to call.
 
 use mufasa_model::cycle::check;
-use mufasa_model::hardened::detection_history::{Seen, seen};
+use mufasa_model::hardened::detection_history::{Seen, has_stood, seen, usable};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
 use mufasa_model::input::scene::Scene;
 
@@ -171,4 +171,44 @@ fn ambiguity_fails_stage_i_and_no_other() {
     cycle.detection_history.iter_mut().for_each(|list| list.items[0].x += 1000.0);
     assert!(is_ambiguous(&cycle));
     assert_eq!(safe(&cycle), NEAR_SAFE);
+}
+
+/// Whether the one detection, at (20, 0), stood: strict, exact, lax. Seen at (20, y) in lists of these ages in ms.
+fn stood(lists: &[(i64, &[f64])]) -> [bool; 3] {
+    let items = |ys: &[f64]| ys.iter().map(|y| detection(20.0, *y)).collect();
+    let lists: Vec<_> = lists.iter().map(|(ms, ys)| (*ms, items(ys))).collect();
+    let cycle = cycle(vec![], vec![detection(20.0, 0.0)], &lists);
+    [Reading::Strict, Reading::Exact, Reading::Lax].map(|reading| {
+        let scene = Scene::new(&cycle, reading);
+        let d = &scene.detections.as_ref().expect("set").items[0];
+        has_stood(&scene, &usable(&scene), d)
+    })
+}
+
+/// SEEN-18: in each of two usable lists or more.
+#[test]
+fn what_is_where_it_was_in_every_usable_list_has_stood() {
+    assert_eq!(stood(&[(250, &[0.1]), (500, &[9.0, -0.2])]), YES);
+    assert_eq!(stood(&[(250, &[0.0]), (500, &[0.0]), (750, &[0.0])]), YES);
+    assert_eq!(stood(&[(250, &[0.0]), (500, &[0.0]), (750, &[0.4])]), NO, "it came");
+    assert_eq!(stood(&[(250, &[0.4]), (500, &[0.0]), (750, &[0.0])]), NO);
+    assert_eq!(stood(&[(250, &[0.0]), (500, &[])]), NO, "not seen");
+    // One usable list, or none, says nothing; one that is not usable is not asked.
+    assert_eq!(stood(&[(500, &[0.0])]), NO);
+    assert_eq!(stood(&[(249, &[0.0]), (500, &[0.0])]), NO, "251 ms apart");
+    assert_eq!(stood(&[(249, &[0.0]), (500, &[0.0]), (700, &[0.0])]), YES);
+    assert_eq!(stood(&[(100, &[0.0]), (500, &[0.0]), (1001, &[0.0])]), NO);
+    assert_eq!(stood(&[]), NO);
+    assert_eq!(stood(&[(100, &[0.4]), (250, &[0.0]), (500, &[0.0])]), YES);
+}
+
+/// SEEN-18, MARGIN-01: 0.3 m is included, and <= 0.3 m - m.
+#[test]
+fn margins_move_what_stood() {
+    for side in [1.0, -1.0] {
+        let at = |y: f64| stood(&[(250, &[0.0]), (500, &[side * y])]);
+        assert_eq!([at(0.3 - 2e-6), at(0.3 - 0.5e-6), at(0.3)], [YES, NEAR_SAFE, NEAR_SAFE]);
+        assert_eq!(at(0.3f64.next_up()), NEAR_UNSAFE);
+        assert_eq!([at(0.3 + 0.5e-6), at(0.3 + 2e-6)], [NEAR_UNSAFE, NO]);
+    }
 }

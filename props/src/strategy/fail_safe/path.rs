@@ -176,12 +176,14 @@ fn places(cycle: &Cycle) -> Vec<Place> {
     found
 }
 
-/// Whether there are more; the last one is where the progress is `end`, or behind the greatest length.
+/// Whether there are more; the last one is where the progress is `end`, or farther from p, or behind the greatest length.
 fn push(found: &mut Vec<Place>, next: Place, end: f64) -> bool {
     let before = found[found.len() - 1];
     if next.progress <= end {
         found.push(next);
-        return next.length <= 2.0 * end + 1.0 && found.len() < MOST;
+        let p = found[0].pose;
+        let distance = (next.pose.x - p.x).hypot(next.pose.y - p.y);
+        return distance <= end && next.length <= 2.0 * end + 1.0 && found.len() < MOST;
     }
     let share = ((end - before.progress) / (next.progress - before.progress)).min(1.0);
     let at = |from: f64, to: f64| from + share * (to - from);

@@ -8,20 +8,23 @@ use super::super::draw::Draw;
 use super::path::Path;
 use super::shape;
 
-/// A turn on the spot of a slow CAV: straight on from there `s_stop` is about as far as a path may be long (H-14.61).
+/// Moves of a slow CAV to the left and back, with which the path is about as long as it may be at `s_stop` (H-14.61).
 fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoint> {
     (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[0.1, 0.5]), 0.5);
-    let (first, s_stop) = (draw.pick(&[0.13, 0.3, 0.5]), base::s_stop(cycle));
-    let slope = (s_stop - first) / draw.near(2.0 * s_stop + 1.0 - first);
-    let angle = slope.clamp(0.02, 1.0).acos();
-    let turn = |k: i32| (first, 0.0, side * angle * f64::from(k) / 32.0);
-    (0..=32).map(turn).map(|it| point(cycle, it)).collect()
+    let moves = draw.pick(&[6_u8, 8]);
+    let aside = draw.near(base::s_stop(cycle) + 1.0) / f64::from(moves);
+    let turn = |k: u8| {
+        let aside = if k % 2 == 0 { 0.0 } else { side * aside };
+        (0.2 + 0.02 * f64::from(k), aside, 0.0)
+    };
+    (0..=moves).map(turn).map(|it| point(cycle, it)).collect()
 }
 
 /// A heading that is turned about as far as one may be where it is (H-14.62), and back.
 fn turned(draw: &mut Draw<'_>, cycle: &Cycle, side: f64) -> Vec<TrajectoryPoint> {
-    let (first, aside) = (draw.pick(&[0.7, 2.0, 4.0]), draw.pick(&[0.0, 0.1]));
-    let sine = draw.near(0.17 + (2.0 * aside + 0.5) / first);
+    let (first, aside) = (draw.pick(&[0.3, 0.7, 2.0, 4.0]), draw.pick(&[0.0, 0.1]));
+    let bound = f64::min((2.0 * aside + 0.5) / first, first / 3.0);
+    let sine = draw.near(0.17 + bound);
     let angle = sine.clamp(0.0, 1.0).asin();
     let turn = |k: i32| (first, aside, side * angle * (1.0 - f64::from(k.abs()) / 32.0));
     let start = [(0.0, 0.0, 0.0), (0.5 * first, 0.5 * aside, 0.0)];

@@ -7,7 +7,7 @@ use super::super::draw::Draw;
 
 /// A path that ends early, begins elsewhere, stands for a while, bends, or is a CAV's of another size.
 pub fn draw(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    match draw.below(9) {
+    match draw.below(10) {
         0 | 1 => {}
         2 => shorten(draw, cycle),
         3 => shift(draw, cycle),
@@ -18,6 +18,7 @@ pub fn draw(draw: &mut Draw<'_>, cycle: &mut Cycle) {
             shift(draw, cycle);
         }
         7 => weave(draw, cycle),
+        8 => turn(draw, cycle),
         _ => resize(draw, cycle),
     }
 }
@@ -100,6 +101,23 @@ fn bend(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         (point.x, point.y) = frame.at(at.0, at.1);
         (point.cos, point.sin) = frame.turn((heading.cos(), heading.sin()));
     }
+    cycle.route = base::road(frame, 30.0);
+}
+
+/// A turn at a junction, which is farther than `s_stop` from the CAV before it is as far ahead.
+fn turn(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[3.0, 5.0]), 0.4);
+    let (side, radius) = (draw.pick(&[1.0, -1.0]), draw.pick(&[3.2, 4.0, 4.5]));
+    let (frame, now_ns) = (frame(cycle), cycle.now_ns);
+    let point = |k: i64| {
+        let way = 0.4 * k as f64;
+        let angle = (way / radius).min(std::f64::consts::FRAC_PI_2);
+        let beyond = way - radius * angle;
+        let (x, y) = frame.at(radius * angle.sin(), side * (radius * (1.0 - angle.cos()) + beyond));
+        let (cos, sin) = frame.turn((angle.cos(), side * angle.sin()));
+        TrajectoryPoint { t_ns: now_ns + 100_000_000 * k, x, y, cos, sin }
+    };
+    *points(cycle) = (0..40).map(point).collect();
     cycle.route = base::road(frame, 30.0);
 }
 

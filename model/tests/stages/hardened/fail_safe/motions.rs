@@ -2,7 +2,8 @@
 
 use mufasa_model::cycle::check;
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
-use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track};
+use mufasa_model::hardened::h14_fail_safe::work::of_pairs;
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
 
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{self, MotRemote, PlanRemote};
@@ -60,8 +61,8 @@ fn exchanged() -> Cycle {
 }
 
 /// d may stand: who stands is examined as standing, whatever its confirmed track claims; who passed has the
-/// false motion alone.
-/// H-14.20, SEEN-14.
+/// false motion alone. Who stood in every list has no false motion.
+/// H-14.18, H-14.20, H-14.63, SEEN-14.
 #[test]
 fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
     let expected = [
@@ -71,7 +72,11 @@ fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
         (pair(1, 0, 500), [0.0, 4.0]),
         (pair(0, 0, 500), [0.0; 2]),
     ];
-    assert_eq!(named(&exchanged()), expected);
+    let stood = [&expected[..2], &expected[3..]].concat();
+    assert_eq!(named(&exchanged()), stood);
+    let mut moved = exchanged();
+    moved.detection_history[0].items[0].y = 0.4;
+    assert_eq!(named(&moved), expected);
     // It stands before the CAV, and nothing else is in its way. Half a second ago it was y m to the left.
     let seen_at = |y: f64| {
         let mut cycle = exchanged();
@@ -157,4 +162,97 @@ fn own_tracks_too_close_to_call_fail_stage_iv() {
         items.push(track(8, 11.0, 0.0));
     };
     assert_eq!(with(near), (ambiguous, NO), "before what meets");
+}
+
+/// A person at (x, y).
+fn person(x: f64, y: f64) -> Detection {
+    Detection { length: 0.5, width: 0.5, ..detection(x, y) }
+}
+
+/// Persons at (8, y), of whom no track tells, and where they were 250 and 500 ms ago.
+fn persons(now: &[f64], seen: [&[f64]; 2]) -> Cycle {
+    let at = |ys: &[f64]| ys.iter().map(|y| person(8.0, *y)).collect();
+    let list =
+        |(ms, ys): (i64, &[f64])| DetectionList { stamp_ns: NOW - ms * 1_000_000, items: at(ys) };
+    let mut cycle = base(HARDENED, PlanRemote);
+    (cycle.tracks, cycle.detections) = (tracks(vec![]), detections(at(now)));
+    cycle.detection_history = [250, 500].into_iter().zip(seen).map(list).collect();
+    cycle
+}
+
+/// H-14.63: of two persons who stand 1.9 m from each other neither comes from where the other one stands. Who moved may
+/// come from there.
+#[test]
+fn who_stood_did_not_come_from_elsewhere() {
+    let standing = |d: usize| Named { detection: Some(d), ..Named::default() };
+    let (first, second) = ((standing(0), [0.0; 2]), (standing(1), [0.0; 2]));
+    let stood = persons(&[0.0, 1.875], [&[0.0, 1.875]; 2]);
+    let own = [0, 1].map(|i| (pair(i, i, 500), [0.0; 2]));
+    assert_eq!(named(&stood), [own[0], own[1], first, second]);
+    let moved = persons(&[0.0, 1.875], [&[0.0, 2.125], &[0.0, 2.375]]);
+    let of_moved = [(pair(1, 0, 500), [0.0, 3.75]), (pair(1, 1, 500), [0.0, -1.0])];
+    assert_eq!(named(&moved), [own[0], of_moved[0], of_moved[1], first, second]);
+    let mut once = stood.clone();
+    once.detection_history.remove(0);
+    assert_eq!(named(&once).len(), 6, "one usable list says nothing");
+}
+
+/// H-14.63, MARGIN-01: how many motions, strict, exact, lax, of a person at 0.
+#[test]
+fn margins_move_the_items_of_who_stood() {
+    let count = |seen: [&[f64]; 2]| {
+        let cycle = persons(&[0.0], seen);
+        [Reading::Strict, Reading::Exact, Reading::Lax]
+            .map(|reading| all_motions(&scene(&cycle, reading)).len())
+    };
+    // Another item of the reference list at <= 0.3 m + m.
+    let item = |y: f64| count([&[0.0], &[0.0, y]]);
+    assert_eq!([item(0.3 - 2e-6), item(0.3 - 0.5e-6), item(0.3)], [[3; 3], [3, 3, 2], [3, 3, 2]]);
+    assert_eq!(item(0.3f64.next_up()), [3, 2, 2]);
+    assert_eq!([item(0.3 + 0.5e-6), item(0.3 + 2e-6)], [[3, 2, 2], [2; 3]]);
+    // Where the person did not stand, for the other list, an item at 0.9 m is another one.
+    let stood = |y: f64| count([&[y], &[0.0, 0.9]]);
+    assert_eq!([stood(0.3 - 2e-6), stood(0.3 - 0.5e-6)], [[2; 3], [3, 2, 2]]);
+    assert_eq!([stood(0.3 + 0.5e-6), stood(0.3 + 2e-6)], [[3, 3, 2], [3; 3]]);
+    // What H-14.20 does not take is not taken at 0.3 m.
+    let mut near = detected(PlanRemote, &[[30.0, 0.0, 0.0, 0.0]]);
+    near.tracks = tracks(vec![says(7, [30.0, 0.0, 0.0, 0.0])]);
+    (near.parameters.theta_track_max, near.parameters.theta_velocity) = (0.125, 0.125);
+    near.detection_history[1].items.push(detection(30.0, 0.25));
+    assert_eq!(
+        named(&near),
+        [of_track(7), pair(0, 0, 500), pair(0, 0, 500)].map(|it| (it, [0.0; 2]))
+    );
+}
+
+/// H-14.63: a person beside the path who stood has not come from another one, nor from an item farther than 0.3 m.
+#[test]
+fn margins_move_who_is_met() {
+    margins_move(&[
+        ("d stood: d' <= 0.3 m - m", PlanRemote, HARDENED, |c, e| {
+            let seen: [&[f64]; 2] = [&[1.8 + 0.3 + e, 3.7], &[1.8, 3.7]];
+            *c = persons(&[1.8, 3.7], seen);
+        }),
+        ("d' <= 0.3 m + m", PlanRemote, HARDENED, |c, e| {
+            *c = persons(&[1.8], [&[1.8], &[1.8, 1.8 + 0.3 - e]]);
+        }),
+    ]);
+}
+
+/// H-14.51: with U = 2, and with three items more that are far from the detection, U = 5.
+#[test]
+fn work_of_pairs_is_that_of_the_text() {
+    let with = |tracks: Vec<Track>, far: usize, detections: usize| {
+        let mut cycle = detected(PlanRemote, &[[30.0, 0.0, 0.0, 0.0]]);
+        cycle.tracks = self::tracks(tracks);
+        cycle.detection_history[0].items.extend(vec![detection(900.0, 0.0); far]);
+        let items = &mut cycle.detections.as_mut().expect("set").items;
+        items.extend(vec![detection(-900.0, 0.0); detections]);
+        of_pairs(&scene(&cycle, Reading::Strict))
+    };
+    assert_eq!(with(vec![], 0, 0), (240 + 2) + 2 * (64 + 2) + 2 * 2);
+    assert_eq!(with(vec![], 3, 0), (240 + 5) + 2 * (64 + 5) + 2 * 5);
+    assert_eq!(with(vec![], 3, 2), (240 + 5) + 2 * (64 + 5) + 3 * 2 * 5, "three detections");
+    let explained = says(7, [30.0, 0.0, 0.0, 0.0]);
+    assert_eq!(with(vec![explained], 3, 0), (240 + 5) + 2 * 5);
 }

@@ -1,10 +1,13 @@
 //! `spec/hardened/H-14.md#requirements-the-path`
 
-use mufasa_model::hardened::h14_fail_safe::path::{Place, count, places};
+use mufasa_model::hardened::h14_fail_safe::failure;
+use mufasa_model::hardened::h14_fail_safe::path::{
+    Place, count, greatest_length, places, places_by_length,
+};
 use mufasa_model::hardened::h14_fail_safe::times::Driving;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::numbers::real::Real;
-use mufasa_model::report::Reading;
+use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
 use super::scene;
@@ -35,10 +38,23 @@ fn all(cycle: &Cycle, reading: Reading) -> Vec<Place> {
     let scene = scene(cycle, reading);
     let trajectory = scene.trajectory.as_ref().expect("it is current");
     let places: Vec<Place> = places(&scene, trajectory).collect();
+    let by_length = by_length(cycle, reading);
+    assert!(places.len() <= by_length);
     if reading == Reading::Exact {
-        assert_eq!(count(&scene, trajectory), places.len() as i128);
+        assert_eq!(count(&scene, trajectory), by_length as i128);
     }
     places
+}
+
+/// How many places there are without an end by distance.
+fn by_length(cycle: &Cycle, reading: Reading) -> usize {
+    let scene = scene(cycle, reading);
+    places_by_length(&scene, scene.trajectory.as_ref().expect("it is current")).count()
+}
+
+/// How many places there are: strict, exact, lax.
+fn counts(cycle: &Cycle) -> [usize; 3] {
+    [Reading::Strict, Reading::Exact, Reading::Lax].map(|it| all(cycle, it).len())
 }
 
 /// x, y, progress, and whether the heading is along x.
@@ -100,8 +116,8 @@ fn the_last_place_is_at_s_stop() {
     let half = measures(&cycle(4.0, &[along_x(0.875, 0.0), along_x(1.125, 0.25)]));
     assert_eq!(half.last(), Some(&[1.0, 0.875 + 0.25]));
     // On a piece that leads aside.
-    let aside = exact(&cycle(4.0, &[along_x(0.75, 0.0), along_x(1.25, 2.0)]));
-    assert_eq!(aside.last(), Some(&(1.0, 1.0, 1.0, true)));
+    let aside = exact(&cycle(4.0, &[along_x(0.875, 0.0), along_x(1.375, 0.5)]));
+    assert_eq!(aside.last(), Some(&(1.0, 0.125, 1.0, true)));
     // Nothing is driven: p, and p as the last place.
     assert_eq!(xs(&cycle(0.0, &[along_x(0.5, 0.0)])), [0.0, 0.0]);
     let step = exact(&cycle(0.0, &[[0.25, 0.0, 1.0, 0.0]]));
@@ -117,25 +133,24 @@ fn the_last_place_is_at_s_stop() {
 /// before the last place and in its window; laxly nothing that is nearer than delta to it, but p.
 #[test]
 fn the_readings_end_before_and_behind_s_stop() {
-    let lengths = |poses: &[[f64; 4]]| {
-        [Reading::Strict, Reading::Exact, Reading::Lax].map(|it| all(&cycle(4.0, poses), it).len())
-    };
+    let lengths = |poses: &[[f64; 4]]| counts(&cycle(4.0, poses));
     // 0, 0.25, 0.5, two more, the point, s_stop.
     let ending = |x: f64| lengths(&[along_x(0.5, 0.0), along_x(x, 0.0), along_x(x + 0.25, 0.0)]);
     assert_eq!(ending(1.0 - 2e-6), [6, 6, 5]);
     assert_eq!(ending(1.0 - 0.5e-6), [6, 6, 4]);
     assert_eq!(ending(1.0 + 0.5e-6), [7, 6, 5]);
     assert_eq!(ending(1.0 + 2e-6), [6, 6, 5]);
-    // From there aside: 7 places with a progress of 1 + 0.5e-6.
+    // From there aside: 7 places with a progress of 1 + 0.5e-6, of which the second is too far from p.
     let aside = 1.0 + 0.5e-6;
     let poses = [along_x(0.5, 0.0), along_x(aside, 0.0), along_x(aside, 1.5)];
-    assert_eq!(lengths(&poses), [13, 6, 5]);
+    assert_eq!(lengths(&poses), [8, 6, 5]);
+    assert_eq!(by_length(&cycle(4.0, &poses), Reading::Strict), 13);
     let strict = all(&cycle(4.0, &poses), Reading::Strict);
     for place in &strict[5..] {
         assert_eq!((&place.least, place.length_after.as_ref()), (&strict[4].progress, None));
     }
-    assert_eq!(strict[12].progress, Real::from_integer(1));
-    assert_eq!(strict[11].length, Real::from_double(aside) + Real::from_double(1.5));
+    assert_eq!(strict[7].progress, Real::from_integer(1));
+    assert_eq!(strict[6].length, Real::from_double(aside) + Real::from_double(0.25));
     // From there back to 0.75, and on to 1.
     assert_eq!(lengths(&[along_x(0.5, 0.0), along_x(aside, 0.0), along_x(0.75, 0.0)]), [10, 6, 5]);
     assert_eq!(all(&cycle(0.0, &poses), Reading::Lax).len(), 1, "p at least");
@@ -183,22 +198,89 @@ fn headings_do_not_shorten_the_length() {
 /// H-14.60: a path that never comes to s_stop ends with the first place that is farther than 2 s_stop + 1 m = 3 m.
 #[test]
 fn a_path_that_does_not_come_to_s_stop_ends_by_length() {
-    for heading in [[0.0, 1.0], [0.0, -1.0], [-1.0, 0.0]] {
-        let all = all(&cycle(4.0, &[[0.5, 0.0, heading[0], heading[1]]]), Reading::Exact);
+    // There and back and there again: 2.5 m, and nowhere farther than 1 m from p.
+    let to_and_fro = [along_x(0.5, 0.0), along_x(-0.5, 0.0)];
+    for [cos, sin] in [[0.0, 1.0], [0.0, -1.0], [-1.0, 0.0]] {
+        let poses = [&to_and_fro[..], &[[0.5, 0.0, cos, sin]]].concat();
+        let all = all(&cycle(4.0, &poses), Reading::Exact);
         let lengths: Vec<f64> = all.iter().map(|place| place.length.to_f64()).collect();
         assert_eq!((lengths.len(), &lengths[11..]), (14, &[2.75, 3.0, 3.25][..]));
         assert_eq!(all[13].length_after, None);
     }
     // Between two places at 3 m: strictly one more, laxly one less.
     let lengths = |e: f64| {
-        let poses = [along_x(0.5, 0.0), [0.5, 2.5 + e, 0.0, 1.0]];
-        [Reading::Strict, Reading::Exact, Reading::Lax].map(|it| all(&cycle(4.0, &poses), it).len())
+        let turned = [along_x(0.5, 0.0), [0.5, 0.5 + e, 0.0, 1.0]];
+        counts(&cycle(4.0, &[&to_and_fro[..], &turned].concat()))
     };
     assert_eq!(lengths(-0.5e-6), [14, 14, 13]);
     assert_eq!(lengths(-2e-6), [14; 3]);
     let beyond = lengths(0.5e-6);
     assert_eq!(beyond, [15, 14, 14]);
     assert_eq!(lengths(2e-6), [14; 3]);
+}
+
+/// H-14.60: a turn by 90 degrees ends with the first place that is farther than s_stop = 1 m from p, behind the last
+/// node or on a piece; the same to the right, and a path that goes back.
+#[test]
+fn a_sharp_turn_ends_by_distance() {
+    for side in [1.0, -1.0] {
+        let ends = [[1.0, 0.0], [0.0, side]].map(|[cos, sin]| [0.5, 2.0 * side, cos, sin]);
+        let turns = [vec![[0.5, 0.0, 0.0, side]], vec![along_x(0.5, 0.0), ends[0]]];
+        for (poses, is_along_x) in turns.iter().zip([false, true]) {
+            let all = exact(&cycle(4.0, poses));
+            let turned = [0.25, 0.5, 0.75, 1.0].map(|y| (0.5, side * y, 0.5, is_along_x));
+            assert_eq!(all[3..], turned, "0.9 m from p is not the last one");
+        }
+    }
+    let turn = all(&cycle(4.0, &[[0.5, 0.0, 0.0, 1.0]]), Reading::Exact);
+    let last = &turn[6];
+    assert_eq!((last.length.to_f64(), last.length_after.as_ref()), (1.5, None));
+    assert_eq!((last.least.to_f64(), turn[5].length_after.as_ref()), (0.5, Some(&last.length)));
+    // 1 m from p is not farther than that.
+    let back = xs(&cycle(4.0, &[[0.5, 0.0, -1.0, 0.0]]));
+    assert_eq!(back[3..], [0.25, 0.0, -0.25, -0.5, -0.75, -1.0, -1.25]);
+    // What is too far from p comes before what is ahead of s_stop.
+    let aside = exact(&cycle(4.0, &[along_x(0.75, 0.0), along_x(1.25, 2.0)]));
+    assert_eq!(aside[4..], [(0.8125, 0.25, 0.8125, true), (0.875, 0.5, 0.875, true)]);
+}
+
+/// H-14.60, MARGIN-01, MARGIN-03: s_stop = 1.25 m, and a place at (0.75, 1 + e): strictly one more, laxly one less, and
+/// the windows of the exact model.
+#[test]
+fn the_readings_end_before_and_behind_the_distance() {
+    let turn = |e: f64| {
+        let mut turn = cycle(0.5, &[along_x(0.75, 0.0), [0.75, 1.0 + e, 0.0, 1.0]]);
+        let parameters = &mut turn.parameters;
+        (parameters.tau, parameters.a_max, parameters.a_b) = (1.0, 0.5, 1.0);
+        turn
+    };
+    let at = |e: f64| counts(&turn(e));
+    assert_eq!(at(-2e-6), [9; 3]);
+    assert_eq!(at(-0.5e-6), [9, 9, 8]);
+    assert_eq!(at(0.0), [9, 9, 8]);
+    assert_eq!(at(1e-15), [10, 9, 9]);
+    assert_eq!(at(0.5e-6), [10, 9, 9]);
+    assert_eq!(at(2e-6), [9; 3]);
+    let windows = |reading| {
+        let of = |place: Place| (place.least, place.length_after);
+        all(&turn(0.0), reading).into_iter().map(of).collect::<Vec<_>>()
+    };
+    let (exact, lax) = (windows(Reading::Exact), windows(Reading::Lax));
+    assert_eq!(exact[..8], lax);
+    assert!(lax[7].1.is_some());
+}
+
+/// H-14.51: the work counts the places that the list of a turn has without an end by distance.
+#[test]
+fn an_end_by_distance_makes_no_work_less() {
+    let mut turn = cycle(4.0, &[[0.5, 0.0, 0.0, 1.0]]);
+    turn.tracks = tracks(vec![track(1, 3.0, 0.0)]);
+    (turn.detections, turn.parameters.work_limit) = (None, 0);
+    assert_eq!(counts(&turn), [7; 3]);
+    let scene = scene(&turn, Reading::Strict);
+    let witness = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
+    let found = witness.map(|it| (it.rule, it.compared[0].to_string()));
+    assert_eq!(found, Some((Rule::WorkLimit, (320 + 640 + 400 * 14).to_string())));
 }
 
 /// H-14.11: the least progress of a place, of the one before it and of the one after it, at least 0.
@@ -210,13 +292,13 @@ fn a_window_begins_with_the_least_progress_around_its_place() {
     assert_eq!(least, [0.0, 0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.5, 0.75, 1.0]);
 }
 
-/// How many places there are is the number of places, without going through them; strictly there are no fewer, laxly
+/// How many places there are without an end by distance, without going through them; strictly there are no fewer, laxly
 /// no more.
-/// H-14.6.
+/// H-14.6, H-14.60.
 #[test]
 fn places_are_counted_as_they_are() {
     let mut draw = Draw::new(14);
-    let (mut aside, mut too_long) = (0, 0);
+    let (mut many, mut too_far, mut too_long) = (0, 0, 0);
     for _ in 0..300 {
         let mut poses = Vec::new();
         let (mut x, mut y) = (f64::from(draw.between(-8, 8)) / 16.0, 0.0);
@@ -232,10 +314,15 @@ fn places_are_counted_as_they_are() {
         let [strict, exact, lax] =
             [Reading::Strict, Reading::Exact, Reading::Lax].map(|reading| all(&cycle, reading));
         assert!(strict.len() >= exact.len() && exact.len() >= lax.len());
-        let last = &exact[exact.len() - 1];
-        too_long +=
-            usize::from(last.progress < Driving::of(&scene(&cycle, Reading::Exact)).s_stop());
-        aside += usize::from(exact.len() > 20);
+        let scene = scene(&cycle, Reading::Exact);
+        let s_stop = Driving::of(&scene).s_stop();
+        let is_far = |place: &Place| place.pose.origin.distance(&scene.ego.position) > s_stop;
+        let (last, before) = exact.split_last().expect("p at least");
+        assert!(!before.iter().any(is_far));
+        assert!(is_far(last) || exact.len() == by_length(&cycle, Reading::Exact));
+        too_far += usize::from(is_far(last));
+        too_long += usize::from(last.length > greatest_length(&scene));
+        many += usize::from(exact.len() > 20);
     }
-    assert!(aside > 40 && too_long > 15, "{aside}, {too_long}");
+    assert!(many > 30 && too_far > 30 && too_long > 5, "{many}, {too_far}, {too_long}");
 }

@@ -1,8 +1,12 @@
 //! `spec/hardened/H-14.md#requirements-reach`
 
 use mufasa_model::cycle::check;
+use mufasa_model::hardened::h14_fail_safe::path::{Place, places};
+use mufasa_model::hardened::h14_fail_safe::times::Driving;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::input::profile::HardenedRule;
+use mufasa_model::input::scene::Scene;
+use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
@@ -118,23 +122,48 @@ fn slow(poses: &[[f64; 4]]) -> Cycle {
 /// H-14.60, H-14.61: what is longer than 2 s_stop + 1 m fails at the place that is; the lax model has no place at s_stop.
 #[test]
 fn a_path_is_not_longer_than_twice_s_stop() {
-    let aside = |e: f64| {
-        let y = 1.8125 + e;
-        slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, y, 1.0, 0.0], [2.0, y, 1.0, 0.0]])
+    // To the left, to the right and back to the line, at most 0.71 m from p: 2.3125 m.
+    let weave = |ys: &[f64]| {
+        let poses = [[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0]].into_iter();
+        poses.chain(ys.iter().map(|y| [0.5, *y, 1.0, 0.0])).collect::<Vec<_>>()
     };
+    let aside =
+        |e: f64| slow(&[weave(&[0.5, -0.40625, e]).as_slice(), &[[2.0, e, 1.0, 0.0]]].concat());
     let all = [-3e-6, -0.5e-6, 0.0, 0.5e-6, 3e-6].map(|e| safe(&aside(e)));
     assert_eq!(all, [YES, NEAR_SAFE, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE]);
     let Outcome::Failed(it) = outcome(&aside(0.25), Stage::Ii) else { panic!("too long") };
-    // 0, two to 0.5, nine to the side, one ahead.
-    let place = (Some(4 + 12), Rule::Reach, "2.8125", "2.625");
+    // 0, two to 0.5, nine aside, one ahead.
+    let place = (Some(6 + 12), Rule::Reach, "2.8125", "2.625");
     let compared = it.compared.each_ref().map(ToString::to_string);
     assert_eq!((it.point, it.rule, compared[0].as_str(), compared[1].as_str()), place);
     // It turns off and never comes to s_stop: laxly one that ends at 2.625 m is short enough.
     let turns =
-        |e: f64| slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.125 + e, 0.6, 0.8]]);
+        |e: f64| slow(&[weave(&[0.5, -0.5]).as_slice(), &[[0.5, 0.125 + e, 0.96, 0.28]]].concat());
     let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| safe(&turns(e)));
     assert_eq!(all, [NO, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
     assert_eq!(rule(&turns(0.0), Stage::Ii), Some(Rule::Reach));
+}
+
+/// H-14.60: a turn by 90 degrees with a radius of 4.5 m, less than s_stop = 4.64 m, ends by distance: not one place is
+/// too long, or turned too far.
+#[test]
+fn a_turn_at_a_junction_is_within_reach() {
+    let turn = |i: u8| {
+        let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_2 / 16.0).sin_cos();
+        [4.5 * sin, 4.5 * (1.0 - cos), cos, sin]
+    };
+    let poses: Vec<[f64; 4]> = (0..=16).map(turn).collect();
+    let mut cycle = diagonal(leads(5.0, &poses));
+    cycle.parameters.tau = 0.4;
+    assert_eq!(safe(&cycle), YES);
+    let scene = Scene::new(&cycle, Reading::Exact);
+    let trajectory = scene.trajectory.as_ref().expect("it is current");
+    let all: Vec<Place> = places(&scene, trajectory).collect();
+    let s_stop = Driving::of(&scene).s_stop();
+    let is_far = |place: &Place| place.pose.origin.distance(&scene.ego.position) > s_stop;
+    let (last, before) = all.split_last().expect("p at least");
+    assert!(is_far(last) && !before.iter().any(is_far));
+    assert!(last.progress < s_stop && last.pose.direction.x > Real::from_double(0.25));
 }
 
 /// H-14.61: of both reasons at a place the witness names that it is too far aside.
@@ -166,7 +195,8 @@ fn a_place_is_not_turned_farther_than_an_arc_to_it() {
     let Outcome::Failed(it) = outcome(&path(0.0), Stage::Ii) else { panic!("turned") };
     let compared = it.compared[0].to_string();
     assert_eq!((it.rule, it.point, compared.as_str()), (Rule::Reach, Some(9 + 12), "1.125"));
-    for (f, d, bound) in [(1.0, 0.0, 0.67), (2.0, 0.0, 0.84), (2.0, 0.25, 1.34), (2.0, -0.25, 1.34)]
+    for (f, d, bound) in
+        [(1.25, 0.0, 0.7125), (2.0, 0.0, 0.84), (2.0, 0.25, 1.34), (2.0, -0.25, 1.34)]
     {
         for side in [-1.0, 1.0] {
             let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| {
@@ -179,21 +209,34 @@ fn a_place_is_not_turned_farther_than_an_arc_to_it() {
     }
 }
 
+/// H-14.62: the same heading 1/8 m and more ahead on the spot, as on a circle of 3 m.
+#[test]
+fn a_place_is_not_turned_farther_than_on_a_circle() {
+    for f in [0.25, 0.75] {
+        for side in [-1.0, 1.0] {
+            let all = [-3e-6, -0.5e-6, 0.5e-6, 3e-6].map(|e| {
+                let sin: f64 = 0.17 + f / 3.0 + e;
+                let turned = [f, 0.0, (1.0 - sin * sin).sqrt(), side * sin];
+                safe(&leads(8.0, &[[0.0, 0.0, 1.0, 0.0], turned, [f + 0.25, 0.0, 1.0, 0.0]]))
+            });
+            assert_eq!(all, [YES, NEAR_SAFE, NEAR_UNSAFE, NO], "{f} {side}");
+        }
+    }
+}
+
+/// On a route that leads off to the left by 45 degrees.
+fn diagonal(mut cycle: Cycle) -> Cycle {
+    let cross_section =
+        |x: f64| CrossSection { x, y: x, left: [x - 20.0, x + 20.0], right: [x + 20.0, x - 20.0] };
+    cycle.route.cross_sections = vec![cross_section(-100.0), cross_section(200.0)];
+    cycle
+}
+
 /// H-14.62: h . h_k > 0, on a route that leads off to the left by 45 degrees. H-14.61 comes first.
 #[test]
 fn a_place_does_not_look_back() {
-    let diagonal = |mut cycle: Cycle| {
-        let cross_section = |x: f64| CrossSection {
-            x,
-            y: x,
-            left: [x - 20.0, x + 20.0],
-            right: [x + 20.0, x - 20.0],
-        };
-        cycle.route.cross_sections = vec![cross_section(-100.0), cross_section(200.0)];
-        cycle
-    };
-    let turned = |x: f64, cos: f64, sin: f64| {
-        let poses = [[0.0, 0.0, 1.0, 0.0], [x, 0.0, cos, sin], [x + 0.25, 0.0, 1.0, 0.0]];
+    let turned = |x: f64, y: f64, cos: f64, sin: f64| {
+        let poses = [[0.0, 0.0, 1.0, 0.0], [x, y, cos, sin], [x + 0.25, y, 1.0, 0.0]];
         diagonal(leads(8.0, &poses))
     };
     let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
@@ -205,12 +248,13 @@ fn a_place_does_not_look_back() {
     let witness = |point, compared: [&str; 2]| {
         Some((Rule::Reach, Some(point), compared.map(ToString::to_string)))
     };
-    assert_eq!(found(&turned(1.0, -0.5, 0.75f64.sqrt())), witness(3 + 4, ["-0.5", "0"]));
+    assert_eq!(found(&turned(1.0, 0.0, -0.5, 0.75f64.sqrt())), witness(3 + 4, ["-0.5", "0"]));
     let across = [-3e-6, -0.5e-6, 0.0, 0.5e-6, 3e-6];
-    let all = across.map(|e: f64| safe(&turned(0.5, -e, (1.0 - e * e).sqrt())));
+    let all = across.map(|e: f64| safe(&turned(3.0, 1.25, -e, (1.0 - e * e).sqrt())));
     assert_eq!(all, [YES, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
-    let long = slow(&[[0.0, 0.0, 1.0, 0.0], [0.5, 0.0, 1.0, 0.0], [0.5, 2.25, -0.6, 0.8]]);
-    assert_eq!(found(&diagonal(long)), witness(3 + 2 + 9, ["2.75", "2.625"]));
+    let weave = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.5, -0.5]].map(|[x, y]| [x, y, 1.0, 0.0]);
+    let long = slow(&[&weave[..], &[[0.5, 0.25, -0.6, 0.8]]].concat());
+    assert_eq!(found(&diagonal(long)), witness(5 + 2 + 9, ["2.75", "2.625"]));
 }
 
 /// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
