@@ -16,7 +16,8 @@ use crate::theorem::rectangle::{point_of, vector};
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "a_CAV_has_a_progress_of_at_most_what_it_has_driven",
-        statement: "H-14: whatever it steers: after a step a and a step b, (x - p) . h <= abs(a) + abs(b)",
+        statement: "H-14: whatever it steers: after a step a and a step b, (x - p) . h and abs(x - p) are at most \
+                    abs(a) + abs(b)",
         domain: "all p and steps, h any unit vector",
         claim: || progress(&Real::from_integer(1)),
         wrong: Wrong {
@@ -26,8 +27,9 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "the_last_place_is_at_s_stop_and_a_path_is_no_longer_than_its_length",
-        statement: "H-14: progress and length of the first place are 0; the progress of the last one is s_stop, or its length \
-                    above 2 s_stop + 1 m; from place to place the length grows by at least their distance; a place knows \
+        statement: "H-14: progress and length of the first place are 0; the progress of the last one is s_stop, or its distance \
+                    from p above s_stop, or its length above 2 s_stop + 1 m; every other one is at most s_stop away from p; \
+                    from place to place the length grows by at least their distance; a place knows \
                     the length at the place after it, and its least progress is at most that of it and its neighbours, or 0",
         domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/4 m in x and in y \
                  from what is before; s_stop at most 1/4 m; tau = 0",
@@ -98,19 +100,23 @@ fn progress(share: &Real) -> Formula {
     });
     (scene.ego.position, scene.ego.heading) = (p.clone(), h);
     let x = &(&p + &a) + &b;
-    at_most(&ahead(&scene, &x), &(share * (a.length() + b.length())))
+    let driven = share * (a.length() + b.length());
+    let far = [ahead(&scene, &x), x.distance(&p)];
+    Formula::All(far.iter().map(|it| at_most(it, &driven)).collect())
 }
 
 fn measures(order: fn(&Real, &Real) -> Formula) -> Formula {
     let (scene, trajectory) = any(["1"], &Real::ratio(1, 4));
     let places = all_places(&scene, &trajectory, &Real::ratio(1, 4));
     let (first, last) = (&places[0], &places[places.len() - 1]);
-    let zero = Real::zero();
+    let (zero, s_stop) = (Real::zero(), Driving::of(&scene).s_stop());
+    let away = |place: &Place| place.pose.origin.squared();
     let mut claims = vec![
         equal(&first.progress, &zero),
         equal(&first.length, &zero),
         Formula::Any(vec![
-            equal(&last.progress, &Driving::of(&scene).s_stop()),
+            equal(&last.progress, &s_stop),
+            less(&s_stop.square(), &away(last)),
             less(&greatest_length(&scene), &last.length),
         ]),
         Formula::from(last.length_after.is_none()),
@@ -120,6 +126,7 @@ fn measures(order: fn(&Real, &Real) -> Formula) -> Formula {
     };
     for pair in places.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
+        claims.push(at_most(&away(a), &s_stop.square()));
         let after = a.length_after.as_ref();
         let after = after.map_or(Formula::Known(false), |length| equal(length, &b.length));
         let grows = &b.length - &a.length;
