@@ -63,7 +63,7 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         _ => {
             let turn = draw.near(0.866).acos() * draw.pick(&[1.0, -1.0]);
             turned = (turn.cos(), turn.sin());
-            (along, aside) = (0.95 * (0.5 * turn).cos(), 0.95 * (0.5 * turn).sin());
+            (along, aside) = (1.6 * (0.5 * turn).cos(), 1.6 * (0.5 * turn).sin());
         }
     }
     let turned = frame.turn(turned);
@@ -149,33 +149,26 @@ fn slide(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     put(frame, cycle, (0..).zip(points).map(|(index, at)| (index * dt_ns, at)).collect());
 }
 
-/// An even turn of a few steps, then straight on: from the mark to its last point at a limit of
-/// turning back, turning on the spot, or turning hard.
+/// An even turn of a few steps, then straight on: about as far as to turn back, or as on the smallest circle (H-14.62).
 fn turn(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    let aim = draw.below(3);
-    // Turning back takes three steps of 30 degrees.
+    let turns_back = draw.one_in(3);
     let (steps, step_ns) =
-        if aim == 0 { (3, 200_000_000) } else { (draw.between(2, 5), 100_000_000) };
+        if turns_back { (5, 200_000_000) } else { (draw.between(2, 5), 100_000_000) };
     let step_ns = draw.odd_ns(step_ns);
     let dt = seconds(step_ns);
-    let t = dt * steps as f64;
-    let speed = match aim {
-        0 => 5.0,
-        1 => draw.pick(&[1.0, 0.0, 2.0]),
-        _ => draw.pick(&[10.0, 13.9, 8.0]),
+    let speed = if turns_back { 5.0 } else { draw.pick(&[1.0, 2.0, 3.0]) };
+    let parts = steps as f64;
+    // How far ahead a turn ends whose way is along the headings; a step lies along the middle of both.
+    let ahead = |angle: f64| {
+        let each = angle / parts;
+        let middles = (0..steps).map(|k| (each * (k as f64 + 0.5)).cos());
+        speed * dt / (0.5 * each).cos() * middles.sum::<f64>()
     };
-    let way = speed * t;
-    let sine: f64 = match aim {
-        0 => 1.0,
-        1 => draw.near(0.05 + 0.1 * t + 0.5 * way),
-        _ => draw.near(0.1 + 11.5 * t * t / way),
-    };
-    let angle =
-        if aim == 0 { draw.near(std::f64::consts::FRAC_PI_2) } else { sine.min(1.0).asin() };
+    let circle = (0..50).fold(0.2_f64, |angle, _| (0.17 + ahead(angle) / 3.0).min(1.0).asin());
+    let angle = draw.near(if turns_back { std::f64::consts::FRAC_PI_2 } else { circle });
     let side = draw.pick(&[1.0, -1.0]);
     cycle.ego.speed = speed;
-    let each = side * angle / steps as f64;
-    // The way is along the headings; the step lies along the middle of both.
+    let each = side * angle / parts;
     let length = speed * dt / (0.5 * each).cos();
     let total = steps + 1 + base::count(speed / cycle.parameters.a_b / dt);
     let (mut at, mut heading) = ((0.0, 0.0), 0.0_f64);

@@ -8,16 +8,16 @@ use super::super::draw::Draw;
 use super::path::Path;
 use super::shape;
 
-/// Moves of a slow CAV to the left and back, with which the path is about as long as it may be at `s_stop` (H-14.61).
+/// A slow CAV weaves, no more than a slide may be, and the path is about as long as it may be at `s_stop` (H-14.61).
 fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoint> {
     (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[0.1, 0.5]), 0.5);
-    let moves = draw.pick(&[6_u8, 8]);
-    let aside = draw.near(base::s_stop(cycle) + 1.0) / f64::from(moves);
+    let moves = draw.pick(&[16_u8, 20]);
+    let aside = draw.near(base::s_stop(cycle) + 1.0) / f64::from(2 * moves - 1);
     let turn = |k: u8| {
-        let aside = if k % 2 == 0 { 0.0 } else { side * aside };
-        (0.2 + 0.02 * f64::from(k), aside, 0.0)
+        let aside = if k == 0 { 0.0 } else { side * aside };
+        (0.2 + 0.02 * f64::from(k), if k % 2 == 0 { -aside } else { aside }, 0.0)
     };
-    (0..=moves).map(turn).map(|it| point(cycle, it)).collect()
+    [(0.0, 0.0, 0.0)].into_iter().chain((0..=moves).map(turn)).map(|it| point(cycle, it)).collect()
 }
 
 /// A heading that is turned about as far as one may be where it is (H-14.62), and back.
