@@ -77,7 +77,7 @@ def path(cycle, s_stop):
                 x, y = o.x + part * (x - o.x), o.y + part * (y - o.y)
                 return [*places, Place(x, y, s_stop, o.length + part * step[2], heading)]
             places.append(Place(x, y, progress, length, end if k == n else heading))
-            if length > greatest_length(s_stop) or x**2 + y**2 > s_stop**2:
+            if length > greatest_length(s_stop) or x**2 + y**2 > (s_stop + 1)**2:
                 return places
 
 

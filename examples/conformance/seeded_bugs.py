@@ -258,7 +258,7 @@ BUGS = [
     hardened("stood-in-some-list", "detection_history.py", "for a in ages for b in ages) and all(",
              "for a in ages for b in ages) and any(",
              "SEEN-18, H-14: what is where some usable list has an item has stood"),
-    hardened("no-end-by-distance", "fail_safe.py", " or x**2 + y**2 > s_stop**2", "",
+    hardened("no-end-by-distance", "fail_safe.py", " or x**2 + y**2 > (s_stop + 1)**2", "",
              "H-14: the path does not end where it is farther than s_stop from the CAV"),
     monitor("tracks-without-look", """ and (
                 self.is_current(cycle["detections"], now_ns)):""", ":",

@@ -56,8 +56,8 @@ struct Node {
     before: Real,
 }
 
-/// Where the list of places ends: where the progress from p on is `s_stop`, or the distance more than that, or the length
-/// more than the greatest.
+/// Where the list of places ends: where the progress from p on is `s_stop`, or the distance 1 m more than that, or the
+/// length more than the greatest.
 #[derive(Clone, Copy, Debug)]
 struct Ends {
     p: [f64; 2],
@@ -225,11 +225,11 @@ impl Piece {
         near.find(|&k| holds(k)).unwrap_or(guess.saturating_add(3).max(least))
     }
 
-    /// The first place that certainly is longer than the greatest or farther from p than `s_stop`; none of a piece
+    /// The first place that certainly is longer than the greatest or farther from p than `s_stop` + 1 m; none of a piece
     /// with an end is beyond n. Of places in a line the squared distance is convex, and no more than that of the node or of
     /// the end of the piece.
     fn first_beyond(&self, Ends { p, s_stop, longest, .. }: Ends, is_endless: bool) -> i64 {
-        let limit = s_stop.squared();
+        let limit = (s_stop + Real::new(1.0)).squared();
         let from_p = Vector::between(p, self.node.at);
         let is_far = |k: i64| {
             let away = from_p + self.u.times(share(k, self.n));

@@ -162,9 +162,9 @@ struct End<'a> {
 }
 
 impl<'a> End<'a> {
-    /// 2 s_stop + 1 m and s_stop, both moved.
+    /// 2 s_stop + 1 m and s_stop + 1 m, both moved.
     fn new(scene: &'a Scene, by_distance: bool, moved: impl Fn(&Real) -> Real) -> Self {
-        let farthest = by_distance.then(|| moved(&Driving::of(scene).s_stop()));
+        let farthest = by_distance.then(|| moved(&(Driving::of(scene).s_stop() + integer(1))));
         Self { p: &scene.ego.position, greatest: moved(&greatest_length(scene)), farthest }
     }
 

@@ -183,7 +183,7 @@ fn push(found: &mut Vec<Place>, next: Place, end: f64) -> bool {
         found.push(next);
         let p = found[0].pose;
         let distance = (next.pose.x - p.x).hypot(next.pose.y - p.y);
-        return distance <= end && next.length <= 2.0 * end + 1.0 && found.len() < MOST;
+        return distance <= end + 1.0 && next.length <= 2.0 * end + 1.0 && found.len() < MOST;
     }
     let share = ((end - before.progress) / (next.progress - before.progress)).min(1.0);
     let at = |from: f64, to: f64| from + share * (to - from);

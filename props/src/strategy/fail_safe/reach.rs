@@ -15,7 +15,7 @@ fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoin
     let aside = draw.near(base::s_stop(cycle) + 1.0) / f64::from(2 * moves - 1);
     let turn = |k: u8| {
         let aside = if k == 0 { 0.0 } else { side * aside };
-        (0.2 + 0.02 * f64::from(k), if k % 2 == 0 { -aside } else { aside }, 0.0)
+        (0.2 + 0.02 * f64::from(k), if k.is_multiple_of(2) { -aside } else { aside }, 0.0)
     };
     [(0.0, 0.0, 0.0)].into_iter().chain((0..=moves).map(turn)).map(|it| point(cycle, it)).collect()
 }

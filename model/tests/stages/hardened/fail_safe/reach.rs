@@ -160,10 +160,11 @@ fn a_turn_at_a_junction_is_within_reach() {
     let trajectory = scene.trajectory.as_ref().expect("it is current");
     let all: Vec<Place> = places(&scene, trajectory).collect();
     let s_stop = Driving::of(&scene).s_stop();
-    let is_far = |place: &Place| place.pose.origin.distance(&scene.ego.position) > s_stop;
+    let most = &s_stop + Real::from_integer(1);
+    let is_far = |place: &Place| place.pose.origin.distance(&scene.ego.position) > most;
     let (last, before) = all.split_last().expect("p at least");
     assert!(is_far(last) && !before.iter().any(is_far));
-    assert!(last.progress < s_stop && last.pose.direction.x > Real::from_double(0.25));
+    assert!(last.progress < s_stop && last.pose.direction.x > Real::from_double(0.1));
 }
 
 /// H-14.61: of both reasons at a place the witness names that it is too far aside.
