@@ -140,17 +140,25 @@ class Seen:
                    for d in unexplained)
 
     def has_stood(self, detection):
-        """Whether it is where each usable list has an item, and two of them are at most 250 ms apart."""
-        ages = [one["age_ns"] for one in self.lists]
-        return any(0 < b - a <= S // 4 for a in ages for b in ages) and all(
+        """Whether it is where each of at least two usable lists has an item."""
+        return len(self.lists) > 1 and all(
             any(distance(item, detection) <= STOOD - EPS for item in one["items"])
             for one in self.lists)
 
+    def moved_evenly(self, detection, item, one):
+        """Whether each other list has an item where it was when it came from that item with one velocity."""
+        w = velocity(item, detection, one)
+        moving = {**detection, "vx": w[0], "vy": w[1]}
+        return all(any(gap(other, moving, -another["dt"]) <= STOOD + EPS for other in another["items"])
+                   for another in self.lists if another is not one)
+
     def pasts(self, detection, one):
-        """The items of a list to ask for where a detection was: of what stood, only those near it."""
+        """The items of a list to ask for where a detection was: of what stood, only those near it and those
+        from which it was seen to come in every list."""
         if not self.has_stood(detection):
             return one["items"]
-        return [item for item in one["items"] if distance(item, detection) <= STOOD + EPS]
+        return [item for item in one["items"] if distance(item, detection) <= STOOD + EPS
+                or self.moved_evenly(detection, item, one)]
 
     def motions(self):
         """The motions of detections that H-14 examines: each with where it was how long ago, in ns."""

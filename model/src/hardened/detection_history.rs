@@ -172,18 +172,25 @@ pub fn stands_within() -> Real {
     Real::from_double(0.3)
 }
 
-/// The current detection stood: the ages of two usable lists differ by at most 250 ms, and each usable list has an item
-/// at distance <= 0.3 m from it.
+/// The current detection stood: there are two usable lists or more, and each has an item at distance <= 0.3 m from it.
 pub fn has_stood(scene: &Scene, lists: &[Usable], d: &Object) -> bool {
     let (place, limit) = (&d.frame.origin, stands_within());
     let is_near = |item: &Object| {
         !place.is_far(&item.frame.origin, &scene.reads.lowered(&limit))
             && scene.reads.at_most(&place.distance(&item.frame.origin), &limit)
     };
-    let is_soon = |(k, list): (usize, &Usable)| {
-        lists[..k].iter().any(|other| (list.age_ns - other.age_ns).abs() <= 250_000_000)
+    lists.len() >= 2 && lists.iter().all(|list| list.items.iter().any(is_near))
+}
+
+/// A detection d moved evenly from an item d', given by list and index: each other list has an item at distance <= 0.3 m
+/// from d - w dt'.
+pub fn moved_evenly(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
+    let w = velocity(d, &lists[k].items[item], &lists[k].dt);
+    let has_it = |other: &Usable| {
+        let then = past(&d.frame.origin, &w, &other.dt);
+        other.items.iter().any(|item| is_within(scene, &then, item, &stands_within()))
     };
-    lists.iter().enumerate().any(is_soon) && lists.iter().all(|list| list.items.iter().any(is_near))
+    lists.iter().enumerate().all(|(other, list)| other == k || has_it(list))
 }
 
 /// w = (d - d') / dt, m/s.

@@ -11,8 +11,6 @@ use crate::numbers::time::{elapsed_ns, seconds};
 
 /// So near to where it is an object was that stood, m.
 const STOOD: f64 = 0.3;
-/// How much the ages of two of the lists that show it differ at most, ns.
-const APART_NS: i64 = 250_000_000;
 
 /// The list of a track.
 #[derive(Clone, Copy)]
@@ -116,36 +114,58 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.cycle.parameters.theta_track_max + CLOSE
     }
 
-    /// Whether a detection stood (SEEN-18, kept in `stood`), and not where an item is (H-14.63). All lists are listed.
+    /// Whether a detection stood (SEEN-18, kept in `stood`), and neither near an item nor evenly from there (H-14.63). All
+    /// lists are listed.
     pub(crate) fn is_elsewhere(
         &self,
         now: &Detection,
-        [x, y]: [f64; 2],
+        before: [f64; 2],
+        (place, own): (usize, &UsableList<'_>),
         stood: &mut Option<bool>,
         columns: &[Column],
     ) -> bool {
-        let (x, y, far) = (now.x - x, now.y - y, STOOD + CLOSE);
-        x * x + y * y > far * far && *stood.get_or_insert_with(|| self.has_stood(now, columns))
+        let (x, y, far) = (now.x - before[0], now.y - before[1], STOOD + CLOSE);
+        if x * x + y * y <= far * far {
+            return false;
+        }
+        let mut others = self.shown().map(|(_, list, squares)| (list, squares));
+        let is_there = |(list, squares)| {
+            self.has_item([now.x, now.y], [0.0; 2], STOOD - CLOSE, (list, squares), columns)
+        };
+        if !*stood.get_or_insert_with(|| others.clone().count() >= 2 && others.all(is_there)) {
+            return false;
+        }
+        // SEEN-19
+        !self.shown().all(|(list, other, squares)| {
+            let share = other.age / own.age;
+            let moved = [(before[0] - now.x) * share, (before[1] - now.y) * share];
+            list == place || self.has_item([now.x, now.y], moved, far, (other, squares), columns)
+        })
     }
 
-    fn has_stood(&self, now: &Detection, columns: &[Column]) -> bool {
-        let (near, around) = (STOOD - CLOSE, |at: f64| [at - STOOD - MARGIN, at + STOOD + MARGIN]);
-        let usable = || self.history.usable.iter().flatten();
-        let is_soon = |(one, next): (&UsableList<'_>, &UsableList<'_>)| {
-            next.age_ns.saturating_sub(one.age_ns) <= APART_NS
-        };
-        let mut lists = self.squares.iter().flatten().zip(usable());
-        // The stamps of the lists decrease.
-        usable().zip(usable().skip(1)).any(is_soon)
-            && lists.all(|(squares, usable)| {
-                self.work.add(u64::try_from(usable.items.len()).unwrap_or(u64::MAX));
-                let mut is_there = false;
-                squares.for_each_in(columns, [around(now.x), around(now.y)], |_, [x, y]| {
-                    let (x, y) = (now.x - x, now.y - y);
-                    is_there |= x * x + y * y <= near * near;
-                });
-                is_there
-            })
+    /// The usable lists with their places in the history, by squares.
+    fn shown(&self) -> impl Iterator<Item = (usize, UsableList<'c>, Squares<'c>)> + Clone {
+        let lists = self.squares.iter().zip(self.history.usable).enumerate();
+        lists.filter_map(|(place, (squares, list))| Some((place, list?, (*squares)?)))
+    }
+
+    /// Whether a list has an item so near to where a detection is, moved by that much.
+    fn has_item(
+        &self,
+        [x, y]: [f64; 2],
+        [dx, dy]: [f64; 2],
+        reach: f64,
+        (list, squares): (UsableList<'_>, Squares<'_>),
+        columns: &[Column],
+    ) -> bool {
+        self.work.add(u64::try_from(list.items.len()).unwrap_or(u64::MAX));
+        let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
+        let mut has = false;
+        squares.for_each_in(columns, [around(x + dx), around(y + dy)], |_, [item_x, item_y]| {
+            let (x, y) = ((x - item_x) + dx, (y - item_y) + dy);
+            has |= x * x + y * y <= reach * reach;
+        });
+        has
     }
 
     /// Whether a detection may come from an item of a list, except for the distance: whether an item of
@@ -166,23 +186,11 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         }
         self.work.add(SUPPORT);
         let mut alone = true;
-        for (list, squares) in self.squares.iter().enumerate() {
-            let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
-            if list == place {
-                continue;
-            }
+        for (_, other, squares) in self.shown().filter(|(list, ..)| *list != place) {
             alone = false;
-            self.work.add(u64::try_from(other.items.len()).unwrap_or(u64::MAX));
-            let mut supported = false;
             let share = other.age / own.age;
-            let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);
-            let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-            let near = [around(now.x + dx), around(now.y + dy)];
-            squares.for_each_in(columns, near, |_, [item_x, item_y]| {
-                let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
-                supported |= x * x + y * y <= reach * reach;
-            });
-            if supported {
+            let moved = [(before_x - now.x) * share, (before_y - now.y) * share];
+            if self.has_item([now.x, now.y], moved, reach, (other, squares), columns) {
                 return true;
             }
         }

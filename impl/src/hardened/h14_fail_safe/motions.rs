@@ -157,7 +157,13 @@ impl Motions<'_, '_, '_> {
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
                 self.keep_pair(&motion, &pair, |it| {
-                    !it.lists.is_elsewhere(now, before, &mut stood, scratch.columns)
+                    !it.lists.is_elsewhere(
+                        now,
+                        before,
+                        (list, &usable),
+                        &mut stood,
+                        scratch.columns,
+                    )
                 });
             }
         });
@@ -204,8 +210,13 @@ impl Motions<'_, '_, '_> {
             if is_pair() {
                 self.keep_pair(&motion, &pair, |it| {
                     let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
-                    !it.lists.is_elsewhere(now, before, &mut stood_still, scratch.columns)
-                        && (stands || track.is_none_or(is_disputed))
+                    !it.lists.is_elsewhere(
+                        now,
+                        before,
+                        (reference, &list),
+                        &mut stood_still,
+                        scratch.columns,
+                    ) && (stands || track.is_none_or(is_disputed))
                 });
             }
         });

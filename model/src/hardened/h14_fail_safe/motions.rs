@@ -2,7 +2,7 @@
 
 use crate::hardened::detection_history::{
     Seen, Usable, confirmed, has_stood, is_disputed, is_within, list_of, may_come_from,
-    nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
+    moved_evenly, nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
 };
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
@@ -115,14 +115,17 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
-/// The items that are taken of a detection d: where d stood, those at distance <= 0.3 m alone.
+/// The items of a list that are taken of a detection d: where d stood, those at distance <= 0.3 m, and those from which
+/// it moved evenly.
 fn is_taken<'a>(
     scene: &'a Scene,
-    lists: &[Usable],
+    lists: &'a [Usable<'a>],
     d: &'a Object,
-) -> impl Fn(&Object) -> bool + 'a {
+    k: usize,
+) -> impl Fn(usize) -> bool + 'a {
     let stood = has_stood(scene, lists, d);
-    move |item| !stood || is_within(scene, &d.frame.origin, item, &stands_within())
+    let is_near = |item: &Object| is_within(scene, &d.frame.origin, item, &stands_within());
+    move |item| !stood || is_near(&lists[k].items[item]) || moved_evenly(scene, lists, d, [k, item])
 }
 
 /// A detection d and an item d' of an earlier list, of which w = (d - d') / dt.
@@ -145,11 +148,9 @@ fn of_confirmed<'a>(
     let list = &lists[k];
     let past = past(&seen.place, &track.velocity, &list.dt);
     let limit = origin_limit(scene, &list.dt);
-    let is_taken = is_taken(scene, lists, &detections.items[detection]);
-    let is_near = |item: &usize| {
-        let item = &list.items[*item];
-        is_within(scene, &past, item, &limit) && is_taken(item)
-    };
+    let is_taken = is_taken(scene, lists, &detections.items[detection], k);
+    let is_near =
+        |item: &usize| is_within(scene, &past, &list.items[*item], &limit) && is_taken(*item);
     (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
 }
 
@@ -166,11 +167,11 @@ fn of_detection<'a>(
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
-    let is_taken = is_taken(scene, lists, d);
+    let is_taken = is_taken(scene, lists, d, k);
     let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || doubtful && may_come_from(scene, lists, d, [k, *item])
     };
-    let is_pair = |item: &usize| is_taken(&list.items[*item]) && is_candidate(item);
+    let is_pair = |item: &usize| is_taken(*item) && is_candidate(item);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

@@ -34,7 +34,7 @@ pub fn of_pairs(scene: &Scene) -> i128 {
     let of_detections = detections.map(|(d, detection)| {
         let is_explained = confirmed.iter().any(|(_, seen)| seen.detection == Some(d));
         let of_lists = lists.iter().enumerate().map(|(k, list)| {
-            let of_reference = if Some(k) == reference { 240 + u } else { 0 };
+            let of_reference = if Some(k) == reference { 240 + 2 * u } else { 0 };
             let each = of_reference + if is_explained { 0 } else { 64 + u };
             if each > 0 { each * near(detection, list) } else { 0 }
         });
