@@ -170,7 +170,12 @@ impl<'a> End<'a> {
 
     /// A list ends with this place: its length is above the greatest, or its distance from p.
     fn is_at(&self, place: &Vector, length: &Real) -> bool {
-        let is_beyond = |farthest: &Real| place.distance(self.p) > *farthest;
+        let is_beyond = |farthest: &Real| {
+            let (away, half) = (place - self.p, farthest / integer(2));
+            // Within half of it along x and along y it is not.
+            let is_near = away.x <= half && away.y <= half && -&away.x <= half && -&away.y <= half;
+            !is_near && away.squared() > farthest.square()
+        };
         *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
     }
 }
