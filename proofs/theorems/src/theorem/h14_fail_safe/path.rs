@@ -1,7 +1,9 @@
 //! H-14: the places of the CAV on its path (`spec/hardened/H-14.md#requirements-the-path`).
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::h14_fail_safe::path::{Place, ahead, greatest_length, places};
+use crate::hardened::h14_fail_safe::path::{
+    Place, ahead, greatest_length, places, places_by_length,
+};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::cycle::Profile;
 use crate::input::scene::{Point, Scene};
@@ -30,7 +32,7 @@ pub const THEOREMS: &[Theorem] = &[
                     above 2 s_stop + 1 m; from place to place the length grows by at least their distance; a place knows \
                     the length at the place after it, and its least progress is at most that of it and its neighbours, or 0",
         domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/4 m in x and in y \
-                 from what is before; s_stop at most 1/4 m; tau = 0",
+                 from what is before; s_stop at most 1/4 m; tau = 0; the list without an end by distance",
         claim: || measures(at_most),
         wrong: Wrong { statement: "by more than their distance", claim: || measures(less) },
     },
@@ -38,7 +40,7 @@ pub const THEOREMS: &[Theorem] = &[
         id: "places_that_follow_each_other_are_at_most_d_apart",
         statement: "H-14: in x and in y",
         domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/2 m in x and in y \
-                 from what is before; s_stop at most 1/4 m; tau = 0",
+                 from what is before; s_stop at most 1/4 m; tau = 0; the list without an end by distance",
         claim: || apart(&Real::ratio(1, 4)),
         wrong: Wrong { statement: "d/2 apart", claim: || apart(&Real::ratio(1, 8)) },
     },
@@ -87,6 +89,12 @@ fn all_places(scene: &Scene, trajectory: &[Point], most: &Real) -> Vec<Place> {
     places(scene, trajectory).collect()
 }
 
+/// The same without an end by distance (H-14.60), of which those places are the first ones.
+fn all_by_length(scene: &Scene, trajectory: &[Point], most: &Real) -> Vec<Place> {
+    given(at_most(&Driving::of(scene).s_stop(), most));
+    places_by_length(scene, trajectory).collect()
+}
+
 /// The progress after two steps, each any along h and across it, is at most this share of what was driven.
 fn progress(share: &Real) -> Formula {
     let mut scene = any_cav(Profile::HARDENED);
@@ -103,7 +111,7 @@ fn progress(share: &Real) -> Formula {
 
 fn measures(order: fn(&Real, &Real) -> Formula) -> Formula {
     let (scene, trajectory) = any(["1"], &Real::ratio(1, 4));
-    let places = all_places(&scene, &trajectory, &Real::ratio(1, 4));
+    let places = all_by_length(&scene, &trajectory, &Real::ratio(1, 4));
     let (first, last) = (&places[0], &places[places.len() - 1]);
     let zero = Real::zero();
     let mut claims = vec![
@@ -132,7 +140,7 @@ fn measures(order: fn(&Real, &Real) -> Formula) -> Formula {
 
 fn apart(most: &Real) -> Formula {
     let (scene, trajectory) = any(["1"], &Real::ratio(1, 2));
-    let places = all_places(&scene, &trajectory, &Real::ratio(1, 4));
+    let places = all_by_length(&scene, &trajectory, &Real::ratio(1, 4));
     let near = |pair: &[Place]| is_within(&(&pair[1].pose.origin - &pair[0].pose.origin), most);
     Formula::All(places.windows(2).map(near).collect())
 }
