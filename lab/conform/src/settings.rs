@@ -17,7 +17,7 @@ pub struct Settings {
     pub command: Vec<OsString>,
     /// Profile of generated cases and of recorded drives.
     pub profile: Profile,
-    /// Cases of all shards, vectors not counted; by default 10,000, or all that the drives give.
+    /// Cases, vectors not counted; by default 10,000, or all that the drives give.
     pub cases: Option<u64>,
     /// Seed of the cases.
     pub seed: u64,
@@ -27,8 +27,6 @@ pub struct Settings {
     pub shrinking: Duration,
     /// Kinds of generated records.
     pub kinds: Vec<Kind>,
-    /// Only the cases whose number leaves the first when divided by the second.
-    pub shard: Option<(u64, u64)>,
     /// Files of drives that give the cases instead.
     pub drives: Vec<PathBuf>,
     /// Whether the vectors that fit are asked before generated cases.
@@ -52,7 +50,6 @@ impl Settings {
             time_limit: Duration::ZERO,
             shrinking: Duration::ZERO,
             kinds: kinds.into(),
-            shard: None,
             drives: Vec::new(),
             vectors: true,
             tolerance: None,

@@ -157,11 +157,8 @@ fn vectors(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
 
 /// The line of the cases.
 fn cases(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
-    let Campaign { cases, of, .. } = &summary.campaign;
+    let Campaign { cases, .. } = &summary.campaign;
     write!(out, "{} of {cases} cases asked", summary.asked)?;
-    if *of > 1 {
-        write!(out, " ({} of {of} shards)", summary.shards.len())?;
-    }
     left_out(summary.skipped, summary.tolerated, out)?;
     if summary.interrupted {
         write!(out, ", INTERRUPTED")?;
@@ -224,7 +221,7 @@ fn coverage(groups: &[CaseCount]) -> String {
     text
 }
 
-/// The files of a campaign or shard in a folder.
+/// The files of a campaign in a folder.
 #[derive(Clone, Debug)]
 pub struct Files {
     /// JSON.
@@ -234,24 +231,20 @@ pub struct Files {
     /// The shrunk records, JSON Lines.
     pub reproducers: PathBuf,
     folder: PathBuf,
-    /// What a shard puts into the names of its files.
-    part: String,
 }
 
 impl Files {
     /// Prepares the folder and removes what an earlier run left under the same names, so that
     /// nothing there looks like a result of this one before it is.
     /// Errors: the folder cannot be written to.
-    pub fn prepare(folder: &Path, shard: Option<(u64, u64)>) -> Result<Self, ConformError> {
+    pub fn prepare(folder: &Path) -> Result<Self, ConformError> {
         let denied = |error| ConformError::file(folder, format!("cannot be written to: {error}"));
         files::prepare(folder).map_err(denied)?;
-        let part = shard.map_or(String::new(), |(at, of)| format!(".{at}-of-{of}"));
         let these = Self {
-            summary: folder.join(format!("summary{part}.json")),
-            junit: folder.join(format!("junit{part}.xml")),
-            reproducers: folder.join(format!("reproducers{part}.jsonl")),
+            summary: folder.join("summary.json"),
+            junit: folder.join("junit.xml"),
+            reproducers: folder.join("reproducers.jsonl"),
             folder: folder.to_owned(),
-            part,
         };
         let sequences = these.sequences().map_err(denied)?;
         let single = [&these.summary, &these.junit, &these.reproducers];
@@ -264,12 +257,11 @@ impl Files {
         Ok(these)
     }
 
-    /// The sequences in the folder: `sequence.ID.jsonl`, of a shard `sequence.0-of-8.ID.jsonl`.
+    /// The sequences in the folder: `sequence.ID.jsonl`.
     fn sequences(&self) -> io::Result<Vec<PathBuf>> {
-        let prefix = format!("sequence{}.", self.part);
         let is_one = |path: &PathBuf| {
             let name = path.file_name().and_then(|name| name.to_str());
-            let id = name.and_then(|name| name.strip_prefix(&prefix)?.strip_suffix(".jsonl"));
+            let id = name.and_then(|name| name.strip_prefix("sequence.")?.strip_suffix(".jsonl"));
             id.is_some_and(|id| !id.contains('.'))
         };
         let entries: io::Result<Vec<_>> = fs::read_dir(&self.folder)?.collect();
@@ -282,7 +274,7 @@ impl Files {
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
         let sequences = summary.classes.iter().filter_map(|found| {
-            let name = format!("sequence{}.{}.jsonl", self.part, found.id);
+            let name = format!("sequence.{}.jsonl", found.id);
             Some((self.folder.join(name), found.sequence()?))
         });
         let rest = [
@@ -329,7 +321,6 @@ mod tests {
             told,
             shrunk: true,
             why: None,
-            tried: Vec::new(),
             before: Vec::new(),
             size: 1,
             unit: String::from("object"),

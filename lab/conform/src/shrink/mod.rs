@@ -114,8 +114,7 @@ impl Shrinking<'_> {
             let mut vectors = sightings.vectors.clone();
             vectors.sort_unstable();
             let shown = best(&tries)?.clone();
-            let tried = if self.settings.shard.is_some() { tries } else { Vec::new() };
-            Some(Found { count, vectors, first, tried, ..shown })
+            Some(Found { count, vectors, first, ..shown })
         });
         Ok(found.collect())
     }
@@ -217,7 +216,6 @@ fn found(class: &Class, case: Case, told: Told, why: Option<NotShrunk>) -> Found
         size: question.objects(),
         unit: question.unit().to_owned(),
         record: record(&question.line(&id)),
-        tried: Vec::new(),
         id,
     }
 }

@@ -17,7 +17,6 @@ mod mistakes;
 mod prove;
 mod report;
 mod schemas;
-mod shards;
 mod speed;
 mod ulm;
 mod verify;

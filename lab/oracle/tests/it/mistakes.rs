@@ -125,9 +125,7 @@ fn arguments_that_make_no_sense_are_refused_with_their_limits() {
         told.has(2, "", limits);
         assert!(told.out.is_empty(), "{arguments:?}");
     }
-    for arguments in
-        [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"], &["conform", "merge"]]
-    {
+    for arguments in [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"]] {
         let told = mufasa(arguments).err;
         assert!(!told.contains(behind), "{arguments:?}: {told}");
     }
