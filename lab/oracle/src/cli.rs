@@ -256,15 +256,14 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
 fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
-    let ComposeArguments { file, dot, .. } = arguments;
-    let Some(file) = file else {
+    let Some(file) = &arguments.file else {
         write!(out, "{}", compose::EXAMPLE)?;
         return Ok(0);
     };
     let text = fs::read_to_string(file).map_err(cannot(file, "read"))?;
     let composed =
         compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;
-    write!(out, "{}", if *dot { composed.dot() } else { composed.table() })?;
+    write!(out, "{}", composed.table())?;
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 
