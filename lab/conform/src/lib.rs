@@ -26,7 +26,6 @@ pub use error::ConformError;
 pub use judge::class::{Breach, Class, Kind, Scale};
 pub use judge::explain::{Numbers, Told};
 pub use results::found::{Found, NotShrunk};
-pub use results::junit::xml_text;
 pub use results::summary::{Campaign, CaseCount, Summary};
 pub use settings::Settings;
 
@@ -78,7 +77,7 @@ pub fn run(
     files.write(&summary)?;
     said?;
     results::report::end(&summary, out)?;
-    writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;
+    writeln!(out, "{}", files.summary.display())?;
     if !summary.classes.is_empty() {
         writeln!(
             out,

@@ -33,7 +33,7 @@ pub struct Settings {
     pub vectors: bool,
     /// Margin within which a disagreement is none, m.
     pub tolerance: Option<f64>,
-    /// Where summary, JUnit and reproducers go.
+    /// Where summary and reproducers go.
     pub out: PathBuf,
 }
 

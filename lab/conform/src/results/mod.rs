@@ -2,7 +2,6 @@
 
 pub mod advice;
 pub mod found;
-pub mod junit;
 pub mod report;
 pub mod seeded;
 pub mod summary;

@@ -9,7 +9,7 @@ use crate::error::ConformError;
 use crate::judge::class::{Class, Kind};
 use crate::results::found::{Found, NotShrunk};
 use crate::results::summary::{Campaign, CaseCount, Summary};
-use crate::results::{advice, junit, seeded};
+use crate::results::{advice, seeded};
 use mufasa_records::files;
 
 /// So many vectors that disagree are named; the summary has all.
@@ -226,8 +226,6 @@ fn coverage(groups: &[CaseCount]) -> String {
 pub struct Files {
     /// JSON.
     pub summary: PathBuf,
-    /// For build servers.
-    pub junit: PathBuf,
     /// The shrunk records, JSON Lines.
     pub reproducers: PathBuf,
     folder: PathBuf,
@@ -242,12 +240,11 @@ impl Files {
         files::prepare(folder).map_err(denied)?;
         let these = Self {
             summary: folder.join("summary.json"),
-            junit: folder.join("junit.xml"),
             reproducers: folder.join("reproducers.jsonl"),
             folder: folder.to_owned(),
         };
         let sequences = these.sequences().map_err(denied)?;
-        let single = [&these.summary, &these.junit, &these.reproducers];
+        let single = [&these.summary, &these.reproducers];
         for file in single.into_iter().chain(&sequences) {
             match fs::remove_file(file) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(denied(error)),
@@ -277,11 +274,7 @@ impl Files {
             let name = format!("sequence.{}.jsonl", found.id);
             Some((self.folder.join(name), found.sequence()?))
         });
-        let rest = [
-            (self.reproducers.clone(), lines),
-            (self.junit.clone(), junit::xml(summary)),
-            (self.summary.clone(), json + "\n"),
-        ];
+        let rest = [(self.reproducers.clone(), lines), (self.summary.clone(), json + "\n")];
         for (path, content) in sequences.chain(rest) {
             files::write(&path, &content).map_err(|error| {
                 ConformError::file(&path, format!("cannot be written: {error}"))

@@ -62,8 +62,7 @@ pub(super) struct ConformArguments {
     /// Let pass what a margin of so many metres explains, 1e-8 to 1e-2, and a rounded norm.
     #[arg(long, value_name = "M", value_parser = number(1e-8, 1e-2))]
     pub(super) tolerance: Option<f64>,
-    /// Folder for the summary (JSON), the report (JUnit XML) and the shrunk records
-    /// [default: mufasa-conform].
+    /// Folder for the summary (JSON) and the shrunk records [default: mufasa-conform].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// The program under test and its arguments.

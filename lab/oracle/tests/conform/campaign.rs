@@ -23,7 +23,7 @@ fn bad_usage_and_a_program_that_is_not_there_end_with_2() {
 fn what_an_earlier_run_left_does_not_look_like_a_result() {
     let folder = folder("stale");
     fs::write(folder.join("summary.json"), "old").expect("a file");
-    fs::create_dir(folder.join("junit.xml")).expect("a folder in the way");
+    fs::create_dir(folder.join("reproducers.jsonl")).expect("a folder in the way");
     let run = judged(&folder, "--cases 5 --no-vectors", &right());
     assert_eq!(run.code, Some(2), "{}", run.told);
     assert!(!folder.join("summary.json").exists());

@@ -77,8 +77,6 @@ fn an_interrupted_campaign_says_what_the_vectors_found() {
     assert!(told.contains(&words), "{told}");
     assert!(told.contains(" cases asked, INTERRUPTED: no disagreement so far"), "{told}");
     assert_eq!(run.file("reproducers.jsonl").lines().count(), count, "{told}");
-    let junit = run.file("junit.xml");
-    assert!(junit.contains("interrupted after") && junit.contains("<failure"), "{junit}");
 }
 
 /// Standard output ends with the first class that is found: what is known is in the files all the same.

@@ -35,7 +35,6 @@ fn who_is_wrong_nearly_everywhere_is_started_seldom() {
     let all = summary.classes.len();
     let why = "of each rule only a few are, those to mend first";
     assert!(told.contains(&format!("\n{limit} of {all} classes not shrunk: {why}\n")), "{told}");
-    assert!(run.file("junit.xml").matches("not shrunk").count() >= limit, "{told}");
 }
 
 /// The vectors show that much is wrong: no case is asked, unless their number is given.

@@ -117,7 +117,7 @@ fn cases(test: &str, options: &str, script: &str) -> Run {
     with_vectors(test, &format!("{options} --no-vectors"), script)
 }
 
-/// Cases alone for a script that is wrong: the exit code must be 1, and the three files must hold what the summary says.
+/// Cases alone for a script that is wrong: the exit code must be 1, and the records those of the summary.
 fn wrong(test: &str, options: &str, script: &str) -> (Summary, String) {
     let run = cases(test, options, script);
     assert_eq!(run.code, Some(1), "{}", run.told);
@@ -133,10 +133,6 @@ fn wrong(test: &str, options: &str, script: &str) -> (Summary, String) {
         summary.classes.iter().filter(|it| told.contains(&format!("DISAGREES  {},", it.class)));
     assert!((1..=3).contains(&shown.count()), "{told}");
     assert!(told.contains("\nmend first:\nDISAGREES  "), "{told}");
-    let junit = run.file("junit.xml");
-    let document = roxmltree::Document::parse(&junit).expect("XML");
-    let failures = document.descendants().filter(|node| node.has_tag_name("failure")).count();
-    assert_eq!(failures, summary.classes.len());
     (summary, run.told)
 }
 
