@@ -63,9 +63,9 @@ def greatest_length(s_stop):
 
 
 def path(cycle, s_stop):
-    """The places, the last one where the progress is s_stop; or the first one that is farther from p,
-    as in a sharp turn, or too far along the path, which is not within reach."""
-    ego = cycle["ego"]
+    """The places, the last one where the progress is s_stop; or the first one that is farther from p than
+    a CAV can be, as in a sharp turn, or too far along the path, which is not within reach."""
+    ego, farthest = cycle["ego"], s_stop + max(1, Fraction(cycle["parameters"]["lateral_tolerance"]))
     places = [Place(Fraction(0), Fraction(0), Fraction(0), Fraction(0), ego)]
     for step, n, heading, end in pieces(cycle):
         node = places[-1]
@@ -77,7 +77,7 @@ def path(cycle, s_stop):
                 x, y = o.x + part * (x - o.x), o.y + part * (y - o.y)
                 return [*places, Place(x, y, s_stop, o.length + part * step[2], heading)]
             places.append(Place(x, y, progress, length, end if k == n else heading))
-            if length > greatest_length(s_stop) or x**2 + y**2 > (s_stop + 1)**2:
+            if length > greatest_length(s_stop) or x**2 + y**2 > farthest**2:
                 return places
 
 

@@ -1,4 +1,4 @@
-//! What the CAV saw itself (SEEN-01 to SEEN-18, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
+//! What the CAV saw itself (SEEN-01 to SEEN-19, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
 //! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
 use crate::input::profile::HardenedRule;
@@ -158,10 +158,7 @@ pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [us
     let (list, p) = (&lists[k], &scene.parameters);
     let before = &list.items[item];
     let w = velocity(d, before, &list.dt);
-    let supports = |other: &Usable| {
-        let then = past(&d.frame.origin, &w, &other.dt);
-        other.items.iter().any(|item| is_within(scene, &then, item, &p.theta_track_max))
-    };
+    let supports = |other: &Usable| had_it(scene, other, d, &w, &p.theta_track_max);
     let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
     is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
         && (others.peek().is_none() || others.any(|(_, other)| supports(other)))
@@ -186,11 +183,14 @@ pub fn has_stood(scene: &Scene, lists: &[Usable], d: &Object) -> bool {
 /// from d - w dt'.
 pub fn moved_evenly(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
     let w = velocity(d, &lists[k].items[item], &lists[k].dt);
-    let has_it = |other: &Usable| {
-        let then = past(&d.frame.origin, &w, &other.dt);
-        other.items.iter().any(|item| is_within(scene, &then, item, &stands_within()))
-    };
-    lists.iter().enumerate().all(|(other, list)| other == k || has_it(list))
+    let had = |other: &Usable| had_it(scene, other, d, &w, &stands_within());
+    lists.iter().enumerate().all(|(other, list)| other == k || had(list))
+}
+
+/// A list of age dt' has an item at distance <= limit from d - w dt'.
+fn had_it(scene: &Scene, list: &Usable, d: &Object, w: &Vector, limit: &Real) -> bool {
+    let then = past(&d.frame.origin, w, &list.dt);
+    list.items.iter().any(|item| is_within(scene, &then, item, limit))
 }
 
 /// w = (d - d') / dt, m/s.

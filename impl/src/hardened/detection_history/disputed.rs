@@ -9,7 +9,7 @@
 //! place in every other list with the items there.
 
 use crate::hardened::detection_history::explained::Explained;
-use crate::hardened::detection_history::lists::{Lists, Past};
+use crate::hardened::detection_history::lists::{Lists, Origin, Past};
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
 use crate::input::cycle::{Detection, Track, TrackList};
 use crate::input::detection_index::DetectionIndex;
@@ -69,25 +69,27 @@ impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
     /// Whether any unexplained detection may come from there.
     fn any_may_come_from(
         &self,
-        origin: [f64; 2],
+        before: [f64; 2],
         past: &Past<'_>,
         lists: &Lists<'_, '_, '_>,
         scratch: &Scratch<'_>,
     ) -> bool {
         let items = self.detections;
-        let farthest = lists.v_object() * past.usable.age + CLOSE;
+        let (list, age) = (past.list, past.usable.age);
+        let farthest = lists.v_object() * age + CLOSE;
         let comes = |detection: usize, now: &Detection| {
-            let (x, y) = (now.x - origin[0], now.y - origin[1]);
+            let (x, y) = (now.x - before[0], now.y - before[1]);
+            let origin = Origin { now: [now.x, now.y], before, list, age };
             x * x + y * y <= farthest * farthest
                 && self.explained.by(detection, scratch.rows, scratch.columns).is_none()
-                && lists.is_supported(now, origin, (past.list, &past.usable), scratch.columns)
+                && lists.is_supported(&origin, scratch.columns)
         };
         let Some(index) = self.index else {
             return items.iter().enumerate().any(|(detection, now)| comes(detection, now));
         };
         let mut any = false;
         let around = |at: f64| [at - farthest - MARGIN, at + farthest + MARGIN];
-        index.for_each_in(origin.map(around), |detection, _| {
+        index.for_each_in(before.map(around), |detection, _| {
             any = any || items.get(detection).is_some_and(|now| comes(detection, now));
         });
         any

@@ -4,13 +4,28 @@ use crate::cycle::steps::SUPPORT;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::hardened::h14_fail_safe::work::Work;
-use crate::input::cycle::{Cycle, Detection, Track, TrackList};
+use crate::input::cycle::{Cycle, Track, TrackList};
 use crate::input::scratch::{Column, Row};
 use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
 
-/// So near to where it is an object was that stood, m.
+/// At most so far from its items is what stood, m.
 const STOOD: f64 = 0.3;
+
+/// A usable list, by squares, and its place in the history.
+type Shown<'c> = (usize, UsableList<'c>, Squares<'c>);
+
+/// An item of a usable list that a detection may have come from.
+pub(crate) struct Origin {
+    /// Where the detection is.
+    pub(crate) now: [f64; 2],
+    /// Where the item is.
+    pub(crate) before: [f64; 2],
+    /// The place of its list in the history.
+    pub(crate) list: usize,
+    /// The age of that, s.
+    pub(crate) age: f64,
+}
 
 /// The list of a track.
 #[derive(Clone, Copy)]
@@ -109,53 +124,73 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.pasts.iter().flatten().find(is_held).copied()
     }
 
-    /// At most so far from an item of the reference list a detection may have stood, m.
-    pub(crate) fn stands_within(&self) -> f64 {
+    /// At most so far from an item of the reference list a detection may stand, m.
+    pub(crate) fn may_stand_within(&self) -> f64 {
         self.cycle.parameters.theta_track_max + CLOSE
     }
 
-    /// Whether a detection stood (SEEN-18, kept in `stood`), and neither near an item nor evenly from there (H-14.63). All
-    /// lists are listed.
-    pub(crate) fn is_elsewhere(
+    /// Whether a detection may come from an item, except for the distance: whether another list supports it
+    /// (SEEN-16), when there are other lists (SEEN-15). All are listed.
+    pub(crate) fn is_supported(&self, origin: &Origin, columns: &[Column]) -> bool {
+        if self.work.is_too_much() {
+            // The stage fails anyhow.
+            return true;
+        }
+        self.work.add(SUPPORT);
+        let (mut others, reach) = (self.others(origin).peekable(), self.may_stand_within());
+        others.peek().is_none() || others.any(|list| self.had_it(list, origin, reach, columns))
+    }
+
+    /// Whether an item is taken (H-14.63). `has_stood`: what is known of that. All lists are listed.
+    pub(crate) fn is_taken(
         &self,
-        now: &Detection,
-        before: [f64; 2],
-        (place, own): (usize, &UsableList<'_>),
-        stood: &mut Option<bool>,
+        origin: &Origin,
+        has_stood: &mut Option<bool>,
         columns: &[Column],
     ) -> bool {
-        let (x, y, far) = (now.x - before[0], now.y - before[1], STOOD + CLOSE);
-        if x * x + y * y <= far * far {
-            return false;
-        }
-        let mut others = self.shown().map(|(_, list, squares)| (list, squares));
-        let is_there = |(list, squares)| {
-            self.has_item([now.x, now.y], [0.0; 2], STOOD - CLOSE, (list, squares), columns)
-        };
-        if !*stood.get_or_insert_with(|| others.clone().count() >= 2 && others.all(is_there)) {
-            return false;
-        }
+        let (&Origin { now, before, .. }, reach) = (origin, STOOD + CLOSE);
+        let [x, y] = [now[0] - before[0], now[1] - before[1]];
         // SEEN-19
-        !self.shown().all(|(list, other, squares)| {
-            let share = other.age / own.age;
-            let moved = [(before[0] - now.x) * share, (before[1] - now.y) * share];
-            list == place || self.has_item([now.x, now.y], moved, far, (other, squares), columns)
-        })
+        let moved_evenly =
+            || self.others(origin).all(|list| self.had_it(list, origin, reach, columns));
+        x * x + y * y <= reach * reach
+            || !*has_stood.get_or_insert_with(|| self.has_stood(now, columns))
+            || moved_evenly()
+    }
+
+    /// SEEN-18
+    fn has_stood(&self, now: [f64; 2], columns: &[Column]) -> bool {
+        let is_there = |list| self.has_item(list, now, [0.0; 2], STOOD - CLOSE, columns);
+        self.shown().count() >= 2 && self.shown().all(is_there)
     }
 
     /// The usable lists with their places in the history, by squares.
-    fn shown(&self) -> impl Iterator<Item = (usize, UsableList<'c>, Squares<'c>)> + Clone {
+    fn shown(&self) -> impl Iterator<Item = Shown<'c>> {
         let lists = self.squares.iter().zip(self.history.usable).enumerate();
         lists.filter_map(|(place, (squares, list))| Some((place, list?, (*squares)?)))
     }
 
-    /// Whether a list has an item so near to where a detection is, moved by that much.
+    /// The lists other than that of the item.
+    fn others(&self, origin: &Origin) -> impl Iterator<Item = Shown<'c>> {
+        let own = origin.list;
+        self.shown().filter(move |(place, ..)| *place != own)
+    }
+
+    /// Whether a list has an item so near to where the detection was then, if it comes from there.
+    fn had_it(&self, list: Shown<'_>, origin: &Origin, reach: f64, columns: &[Column]) -> bool {
+        let &Origin { now, before, age, .. } = origin;
+        let share = list.1.age / age;
+        let moved = [(before[0] - now[0]) * share, (before[1] - now[1]) * share];
+        self.has_item(list, now, moved, reach, columns)
+    }
+
+    /// Whether a list has an item so near to a point, moved by that much.
     fn has_item(
         &self,
+        (_, list, squares): Shown<'_>,
         [x, y]: [f64; 2],
         [dx, dy]: [f64; 2],
         reach: f64,
-        (list, squares): (UsableList<'_>, Squares<'_>),
         columns: &[Column],
     ) -> bool {
         self.work.add(u64::try_from(list.items.len()).unwrap_or(u64::MAX));
@@ -166,34 +201,5 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             has |= x * x + y * y <= reach * reach;
         });
         has
-    }
-
-    /// Whether a detection may come from an item of a list, except for the distance: whether an item of
-    /// another list is where the object was then (SEEN-16), when there are other lists (SEEN-15).
-    /// All are listed.
-    pub(crate) fn is_supported(
-        &self,
-        now: &Detection,
-        before: [f64; 2],
-        (place, own): (usize, &UsableList<'_>),
-        columns: &[Column],
-    ) -> bool {
-        let reach = self.stands_within();
-        let [before_x, before_y] = before;
-        if self.work.is_too_much() {
-            // The stage fails anyhow.
-            return true;
-        }
-        self.work.add(SUPPORT);
-        let mut alone = true;
-        for (_, other, squares) in self.shown().filter(|(list, ..)| *list != place) {
-            alone = false;
-            let share = other.age / own.age;
-            let moved = [(before_x - now.x) * share, (before_y - now.y) * share];
-            if self.has_item([now.x, now.y], moved, reach, (other, squares), columns) {
-                return true;
-            }
-        }
-        alone
     }
 }

@@ -10,7 +10,7 @@ use crate::cycle::steps::{MOTION, PAIR};
 use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
-use crate::hardened::detection_history::lists::{Lists, Past};
+use crate::hardened::detection_history::lists::{Lists, Origin, Past};
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
 use crate::hardened::h14_fail_safe::meeting::{Meeting, Met};
 use crate::hardened::h14_fail_safe::motion::Motion;
@@ -145,25 +145,20 @@ impl Motions<'_, '_, '_> {
         let Some((around, (dx, dy))) = past.map(|it| (it.around(track), it.moved(track))) else {
             return;
         };
-        let (scratch, rate, mut stood) = (&*scratch, 1.0 / usable.age, None);
+        let (scratch, age, mut has_stood) = (&*scratch, usable.age, None);
         squares.for_each_in(scratch.columns, around, |item, before| {
             if self.lists.work.is_too_much() {
                 return;
             }
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
-            let motion = motion.coming_from(before, usable.age_ns, rate);
+            let motion = motion.coming_from(before, usable.age_ns, 1.0 / age);
             if x * x + y * y <= reach * reach {
                 self.lists.work.add(PAIR);
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
+                let origin = Origin { now: [now.x, now.y], before, list, age };
                 self.keep_pair(&motion, &pair, |it| {
-                    !it.lists.is_elsewhere(
-                        now,
-                        before,
-                        (list, &usable),
-                        &mut stood,
-                        scratch.columns,
-                    )
+                    it.lists.is_taken(&origin, &mut has_stood, scratch.columns)
                 });
             }
         });
@@ -181,15 +176,15 @@ impl Motions<'_, '_, '_> {
     ) {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
-        let (stood, rate) = (self.lists.stands_within(), 1.0 / list.age);
+        let (within, age) = (self.lists.may_stand_within(), list.age);
         // SEEN-15; H-14.57
-        let farthest = larger(self.lists.v_object() * list.age + CLOSE, stood);
-        let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
+        let farthest = larger(self.lists.v_object() * age + CLOSE, within);
+        let area = self.meeting.comes_from(motion, farthest / age, age + MARGIN);
         if is_empty(area) {
             return;
         }
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
-        let (scratch, seen, mut stood_still) = (&*scratch, self.meeting.seen_from(motion), None);
+        let (scratch, seen, mut has_stood) = (&*scratch, self.meeting.seen_from(motion), None);
         squares.for_each_in(scratch.columns, area, |item, before| {
             if self.lists.work.is_too_much() {
                 return;
@@ -200,23 +195,16 @@ impl Motions<'_, '_, '_> {
             }
             // What an index shows besides is no more than each item once.
             self.lists.work.add(PAIR);
-            let motion = motion.coming_from(before, list.age_ns, rate);
+            let motion = motion.coming_from(before, list.age_ns, 1.0 / age);
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };
-            let stands = x * x + y * y <= stood * stood;
-            let is_pair = || {
-                stands || self.lists.is_supported(now, before, (reference, &list), scratch.columns)
-            };
-            if is_pair() {
+            let origin = Origin { now: [now.x, now.y], before, list: reference, age };
+            let may_stand = x * x + y * y <= within * within;
+            if may_stand || self.lists.is_supported(&origin, scratch.columns) {
                 self.keep_pair(&motion, &pair, |it| {
                     let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
-                    !it.lists.is_elsewhere(
-                        now,
-                        before,
-                        (reference, &list),
-                        &mut stood_still,
-                        scratch.columns,
-                    ) && (stands || track.is_none_or(is_disputed))
+                    (may_stand || track.is_none_or(is_disputed))
+                        && it.lists.is_taken(&origin, &mut has_stood, scratch.columns)
                 });
             }
         });

@@ -11,6 +11,7 @@ use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Ego, TrajectoryPoint};
 use crate::numbers::exact::{Product, compare};
 use crate::numbers::plane::Vector;
+use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::stages::llcc::{Pose, vector};
 
@@ -38,10 +39,12 @@ impl<'c, 'a> Path<'c, 'a> {
 
     /// The rest of them.
     pub(crate) fn pieces_from(&self, start: Start<'a>) -> Pieces<'a> {
-        let &Ego { x, y, cos, sin, .. } = &self.nodes.cycle.ego;
+        let cycle = self.nodes.cycle;
+        let &Ego { x, y, cos, sin, .. } = &cycle.ego;
         let s_stop = self.times.s_stop;
         let (h, longest) = (vector([cos, sin]), longest(s_stop));
-        Pieces { start, ends: Ends { p: [x, y], h, s_stop, longest }, d: self.nodes.d }
+        let farthest = s_stop + Real::new(larger(1.0, cycle.parameters.lateral_tolerance));
+        Pieces { start, ends: Ends { p: [x, y], h, s_stop, farthest, longest }, d: self.nodes.d }
     }
 }
 
@@ -56,13 +59,14 @@ struct Node {
     before: Real,
 }
 
-/// Where the list of places ends: where the progress from p on is `s_stop`, or the distance 1 m more than that, or the
-/// length more than the greatest.
+/// Where the list of places ends: where the progress from p on is `s_stop`, or the distance above `farthest`, or the
+/// length above `longest`.
 #[derive(Clone, Copy, Debug)]
 struct Ends {
     p: [f64; 2],
     h: Vector,
     s_stop: Real,
+    farthest: Real,
     longest: Real,
 }
 
@@ -169,7 +173,6 @@ impl Iterator for Pieces<'_> {
                 piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
             piece.end = Some(share);
         }
-        // H-14.60
         let beyond = piece.first_beyond(self.ends, to.is_none());
         if beyond < piece.places || piece.end.is_none() && to.is_none() {
             piece.places = beyond.saturating_add(1);
@@ -225,11 +228,11 @@ impl Piece {
         near.find(|&k| holds(k)).unwrap_or(guess.saturating_add(3).max(least))
     }
 
-    /// The first place that certainly is longer than the greatest or farther from p than `s_stop` + 1 m; none of a piece
-    /// with an end is beyond n. Of places in a line the squared distance is convex, and no more than that of the node or of
-    /// the end of the piece.
-    fn first_beyond(&self, Ends { p, s_stop, longest, .. }: Ends, is_endless: bool) -> i64 {
-        let limit = (s_stop + Real::new(1.0)).squared();
+    /// The first place that certainly has a greater length than the longest or is farther from p than the farthest; none
+    /// of a piece with an end is beyond n (H-14.60). Of places in a line the squared distance is convex, and no more than
+    /// that of the node or of the end of the piece.
+    fn first_beyond(&self, Ends { p, farthest, longest, .. }: Ends, is_endless: bool) -> i64 {
+        let limit = farthest.squared();
         let from_p = Vector::between(p, self.node.at);
         let is_far = |k: i64| {
             let away = from_p + self.u.times(share(k, self.n));

@@ -115,17 +115,12 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
-/// The items of a list that are taken of a detection d: where d stood, those at distance <= 0.3 m, and those from which
-/// it moved evenly.
-fn is_taken<'a>(
-    scene: &'a Scene,
-    lists: &'a [Usable<'a>],
-    d: &'a Object,
-    k: usize,
-) -> impl Fn(usize) -> bool + 'a {
-    let stood = has_stood(scene, lists, d);
-    let is_near = |item: &Object| is_within(scene, &d.frame.origin, item, &stands_within());
-    move |item| !stood || is_near(&lists[k].items[item]) || moved_evenly(scene, lists, d, [k, item])
+/// An item of a list is taken of a detection d: where d stood, one at distance <= 0.3 m, or one from which d moved
+/// evenly.
+fn is_taken(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
+    is_within(scene, &d.frame.origin, &lists[k].items[item], &stands_within())
+        || !has_stood(scene, lists, d)
+        || moved_evenly(scene, lists, d, [k, item])
 }
 
 /// A detection d and an item d' of an earlier list, of which w = (d - d') / dt.
@@ -135,8 +130,22 @@ struct Pair<'a> {
     list: &'a Usable<'a>,
 }
 
-/// The detection of a confirmed track and each item at distance <= theta_track_max + theta_velocity dt
-/// from its past, in the list of the track; where d stood, of these those that are taken.
+/// The list of a confirmed track, and the items of it at distance <= theta_track_max + theta_velocity dt from its past.
+pub fn origins(
+    scene: &Scene,
+    lists: &[Usable],
+    track: &Track,
+    seen: &Seen,
+) -> Option<(usize, Vec<usize>)> {
+    let k = list_of(lists, seen)?;
+    let list = &lists[k];
+    let past = past(&seen.place, &track.velocity, &list.dt);
+    let limit = origin_limit(scene, &list.dt);
+    let is_near = |item: &usize| is_within(scene, &past, &list.items[*item], &limit);
+    Some((k, (0..list.items.len()).filter(is_near).collect()))
+}
+
+/// The detection of a confirmed track and each of these items; where d stood, each of them that is taken.
 fn of_confirmed<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
@@ -144,14 +153,11 @@ fn of_confirmed<'a>(
     track: &Track,
     seen: &Seen,
 ) -> Vec<Pair<'a>> {
-    let Some((k, detection)) = list_of(lists, seen).zip(seen.detection) else { return Vec::new() };
-    let list = &lists[k];
-    let past = past(&seen.place, &track.velocity, &list.dt);
-    let limit = origin_limit(scene, &list.dt);
-    let is_taken = is_taken(scene, lists, &detections.items[detection], k);
-    let is_near =
-        |item: &usize| is_within(scene, &past, &list.items[*item], &limit) && is_taken(*item);
-    (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
+    let Some((k, items)) = origins(scene, lists, track, seen) else { return Vec::new() };
+    let Some(detection) = seen.detection else { return Vec::new() };
+    let (d, list) = (&detections.items[detection], &lists[k]);
+    let taken = items.into_iter().filter(|item| is_taken(scene, lists, d, [k, *item]));
+    taken.map(|item| Pair { detection, item, list }).collect()
 }
 
 /// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
@@ -167,11 +173,10 @@ fn of_detection<'a>(
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
-    let is_taken = is_taken(scene, lists, d, k);
     let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || doubtful && may_come_from(scene, lists, d, [k, *item])
     };
-    let is_pair = |item: &usize| is_taken(*item) && is_candidate(item);
+    let is_pair = |item: &usize| is_candidate(item) && is_taken(scene, lists, d, [k, *item]);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

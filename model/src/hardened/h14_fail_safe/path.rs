@@ -162,20 +162,16 @@ struct End<'a> {
 }
 
 impl<'a> End<'a> {
-    /// 2 s_stop + 1 m and s_stop + 1 m, both moved.
+    /// 2 s_stop + 1 m, and s_stop + max(1 m, lateral_tolerance), both moved.
     fn new(scene: &'a Scene, by_distance: bool, moved: impl Fn(&Real) -> Real) -> Self {
-        let farthest = by_distance.then(|| moved(&(Driving::of(scene).s_stop() + integer(1))));
+        let beside = integer(1).max(scene.parameters.lateral_tolerance.clone());
+        let farthest = by_distance.then(|| moved(&(Driving::of(scene).s_stop() + beside)));
         Self { p: &scene.ego.position, greatest: moved(&greatest_length(scene)), farthest }
     }
 
     /// A list ends with this place: its length is above the greatest, or its distance from p.
     fn is_at(&self, place: &Vector, length: &Real) -> bool {
-        let is_beyond = |farthest: &Real| {
-            let (away, half) = (place - self.p, farthest / integer(2));
-            // Within half of it along x and along y it is not.
-            let is_near = away.x <= half && away.y <= half && -&away.x <= half && -&away.y <= half;
-            !is_near && away.squared() > farthest.square()
-        };
+        let is_beyond = |farthest: &Real| place.distance(self.p) > *farthest;
         *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
     }
 }

@@ -6,7 +6,7 @@ use std::cell::LazyCell;
 
 use crate::hardened::detection_history::{Usable, confirmed, nearest_to_reference, usable};
 use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
-use crate::hardened::h14_fail_safe::motions::Motion;
+use crate::hardened::h14_fail_safe::motions::{Motion, origins};
 use crate::hardened::h14_fail_safe::path::{self, Place};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::scene::{Object, Point, Scene};
@@ -16,7 +16,8 @@ use crate::numbers::vector::Vector;
 
 /// U being the items of all usable lists: 240 + U for each current detection and each item of the reference list
 /// that are near each other, and 64 + U for each unexplained one and each item of a usable list. Near is at most
-/// v_object dt + theta_track_max + 1 cm. And 2 U for each current detection.
+/// v_object dt + theta_track_max + 1 cm. And 2 U for each current detection, and 176 + U for each item that a confirmed
+/// track may come from.
 pub fn of_pairs(scene: &Scene) -> i128 {
     let (lists, confirmed) = (usable(scene), confirmed(scene));
     let u = lists.iter().map(|list| list.items.len() as i128).sum::<i128>();
@@ -40,7 +41,11 @@ pub fn of_pairs(scene: &Scene) -> i128 {
         });
         of_lists.sum::<i128>() + 2 * u
     });
-    of_detections.sum()
+    let of_origins = confirmed.iter().filter_map(|(track, seen)| {
+        let (_, items) = origins(scene, &lists, track, seen)?;
+        Some(items.len() as i128 * (176 + u))
+    });
+    of_detections.sum::<i128>() + of_origins.sum::<i128>()
 }
 
 /// K being the places that the list has without an end by distance, E those whose progress is above s_stop - delta, and

@@ -215,16 +215,29 @@ fn margins_move_what_stood() {
 /// was not.
 #[test]
 fn who_was_seen_to_move_in_every_list_moved_evenly() {
-    let evenly = |at_250: &[f64]| {
+    let in_lists = |at_250: &[f64], at_750: &[f64]| {
         let items = |ys: &[f64]| ys.iter().map(|y| detection(20.0, *y)).collect::<Vec<_>>();
-        let lists = [(250, items(at_250)), (500, items(&[0.0, 1.0])), (750, items(&[0.0, 1.5]))];
+        let lists = [(250, items(at_250)), (500, items(&[0.0, 1.0])), (750, items(at_750))];
         let cycle = cycle(vec![], vec![detection(20.0, 0.0)], &lists);
         let scene = Scene::new(&cycle, Reading::Exact);
         let d = &scene.detections.as_ref().expect("set").items[0];
         [0, 1].map(|item| moved_evenly(&scene, &usable(&scene), d, [1, item]))
     };
+    let evenly = |at_250: &[f64]| in_lists(at_250, &[0.0, 1.5]);
     assert_eq!(evenly(&[0.0, 0.5]), [true, true]);
     assert_eq!(evenly(&[0.0, 0.9]), [true, false]);
     assert_eq!(evenly(&[0.0]), [true, false]);
     assert_eq!(evenly(&[]), [false, false]);
+    assert_eq!(in_lists(&[0.0, 0.5], &[0.0]), [true, false], "not before");
+    let alone = |lists: &[(i64, Vec<Detection>)]| {
+        let cycle = cycle(vec![], vec![detection(20.0, 0.0)], lists);
+        let scene = Scene::new(&cycle, Reading::Exact);
+        moved_evenly(
+            &scene,
+            &usable(&scene),
+            &scene.detections.as_ref().expect("set").items[0],
+            [0, 0],
+        )
+    };
+    assert!(alone(&[(500, vec![detection(20.0, 9.0)])]), "no other list");
 }

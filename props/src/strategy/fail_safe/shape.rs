@@ -106,14 +106,16 @@ fn bend(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 
 /// A turn at a junction, which is farther than `s_stop` from the CAV before it is as far ahead.
 fn turn(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[3.0, 5.0]), 0.4);
-    let (side, radius) = (draw.pick(&[1.0, -1.0]), draw.pick(&[3.2, 4.0, 4.5]));
+    (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[4.0, 5.0]), 0.4);
+    let (side, radius) = (draw.pick(&[1.0, -1.0]), draw.pick(&[3.2, 3.4, 4.4]));
     let (frame, now_ns) = (frame(cycle), cycle.now_ns);
     let point = |k: i64| {
         let way = 0.4 * k as f64;
-        let angle = (way / radius).min(std::f64::consts::FRAC_PI_2);
+        // Not at a right angle: what goes across the route is decided by rounding there (H-07.7).
+        let angle = (way / radius).min(1.48);
         let beyond = way - radius * angle;
-        let (x, y) = frame.at(radius * angle.sin(), side * (radius * (1.0 - angle.cos()) + beyond));
+        let x = radius * angle.sin() + beyond * angle.cos();
+        let (x, y) = frame.at(x, side * (radius * (1.0 - angle.cos()) + beyond * angle.sin()));
         let (cos, sin) = frame.turn((angle.cos(), side * angle.sin()));
         TrajectoryPoint { t_ns: now_ns + 100_000_000 * k, x, y, cos, sin }
     };

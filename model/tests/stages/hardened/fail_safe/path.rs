@@ -144,6 +144,9 @@ fn the_readings_end_before_and_behind_s_stop() {
     let aside = 1.0 + 0.5e-6;
     let poses = [along_x(0.5, 0.0), along_x(aside, 0.0), along_x(aside, 1.5)];
     assert_eq!(lengths(&poses), [13, 6, 5]);
+    // Up to 2 m from p, and the first one beyond.
+    let farther = [along_x(0.5, 0.0), along_x(aside, 0.0), along_x(aside, 3.0)];
+    assert_eq!(lengths(&farther), [14, 6, 5]);
     let strict = all(&cycle(4.0, &poses), Reading::Strict);
     for place in &strict[5..] {
         assert_eq!((&place.least, place.length_after.as_ref()), (&strict[4].progress, None));
@@ -218,8 +221,8 @@ fn a_path_that_does_not_come_to_s_stop_ends_by_length() {
     assert_eq!(lengths(2e-6), [14; 3]);
 }
 
-/// H-14.60: a turn by 90 degrees ends with the first place that is farther than s_stop = 1 m from p, behind the last
-/// node or on a piece; the same to the right, and a path that goes back.
+/// H-14.60: a turn by 90 degrees ends with the first place that is farther than s_stop + 1 m = 2 m from p, behind the
+/// last node or on a piece; the same to the right, and a path that goes back.
 #[test]
 fn a_sharp_turn_ends_by_distance() {
     for side in [1.0, -1.0] {
@@ -239,6 +242,12 @@ fn a_sharp_turn_ends_by_distance() {
     // 2 m from p is not farther than that.
     let back = xs(&cycle(4.0, &[[0.5, 0.0, -1.0, 0.0]]));
     assert_eq!(back[9..], [-1.25, -1.5, -1.75, -2.0, -2.25]);
+    // A CAV may be farther aside than 1 m: 1 m + 2 m.
+    let mut beside = cycle(4.0, &[[0.5, 0.0, 0.0, 1.0]]);
+    for (lateral_tolerance, places) in [(0.5, 11), (1.0, 11), (1.25, 12), (2.0, 14)] {
+        beside.parameters.lateral_tolerance = lateral_tolerance;
+        assert_eq!(exact(&beside).len(), places, "{lateral_tolerance}");
+    }
     // What is too far from p comes before what is ahead of s_stop.
     let aside = exact(&cycle(4.0, &[along_x(0.75, 0.0), along_x(1.5, 6.0)]));
     let to = [1, 2, 3, 4, 5, 6, 7].map(|k| (0.75 + f64::from(k) / 32.0, f64::from(k) / 4.0));

@@ -1,7 +1,7 @@
 //! H-14: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::detection_history::{confirmed, origin_limit};
+use crate::hardened::detection_history::{confirmed, origin_limit, stands_within};
 use crate::hardened::h14_fail_safe::motions::{Named, all_motions};
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
@@ -17,7 +17,8 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_mean_motion_of_an_unexplained_detection_is_examined",
         statement: "H-14: if d and d' are items of the current and the reference list, abs(d - d') <= \
-                    v_object dt, d is unexplained and d' supported, (d, d') is examined as moving",
+                    v_object dt, d is unexplained and d' supported, and d did not stand or moved evenly from d', \
+                    (d, d') is examined as moving",
         domain: "all positions, v_object, theta_track_max > 0; the remote list is empty; d the second of two \
                  detections, d' the second of two items of 500 ms ago, its support one item of 300 ms ago",
         claim: || unexplained(true),
@@ -26,7 +27,8 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_motion_of_a_confirmed_track_is_examined_whatever_the_track_says",
         statement: "H-14: if d is the detection of a confirmed track and d' its own origin in the list \
-                    nearest to 500 ms of those that hold one, (d, d') is examined as moving",
+                    nearest to 500 ms of those that hold one, and d did not stand or moved evenly from d', \
+                    (d, d') is examined as moving",
         domain: "all positions, velocities of the track along x and y, theta_track_max, theta_velocity, v_object \
                  > 0; one track, two detections, two items of 500 ms ago, one of 300 ms ago",
         claim: || of_track(0),
@@ -35,7 +37,8 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
         statement: "H-14, F-42: if d is the detection of a confirmed track whose own origin is a, an \
-                    unexplained detection may come from a, and d may come from b, (d, b) is examined as moving",
+                    unexplained detection may come from a, and d may come from b, and did not stand or moved \
+                    evenly from b, (d, b) is examined as moving",
         domain: "all positions, velocities of the track along x, theta_track_max, theta_velocity, v_object > 0; one \
                  track at its detection, another detection farther than theta_track_max; a and b the items of \
                  500 ms ago, b too far from its past, one item of 300 ms ago",
@@ -99,12 +102,28 @@ fn given_within(vector: &Vector, limit: &Real) {
 
 /// Assumes that the detection may come from the item of 500 ms ago, the support being that of 300 ms ago.
 fn given_may_come_from(scene: &Scene, detection: &str, item: &str) {
-    let [d, before, support] = [detection, item, "s"].map(place);
-    let moved = &d - &before;
+    given_slow(scene, detection, item);
+    given_within(&from_support(detection, item), &scene.parameters.theta_track_max);
+}
+
+/// Assumes that the detection is at most v_object dt from the item of 500 ms ago.
+fn given_slow(scene: &Scene, detection: &str, item: &str) {
+    let moved = &place(detection) - &place(item);
     given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
-    // d - w dt' with w = (d - d') / 0.5 s, dt' = 0.3 s.
-    let then = &d - &moved.scaled(&Real::ratio(3, 5));
-    given_within(&(&then - &support), &scene.parameters.theta_track_max);
+}
+
+/// Where d was 300 ms ago, d - w dt' with w = (d - d') / 0.5 s and dt' = 0.3 s, from the item of that time.
+fn from_support(detection: &str, item: &str) -> Vector {
+    let [d, before, support] = [detection, item, "s"].map(place);
+    let then = &d - &(&d - &before).scaled(&Real::ratio(3, 5));
+    &then - &support
+}
+
+/// Assumes that the detection is not where the item of 300 ms ago was, or moved evenly from that of 500 ms ago.
+fn given_not_stood(detection: &str, item: &str) {
+    let from_there = (&place(detection) - &place("s")).length();
+    let moved_evenly = at_most(&from_support(detection, item).length(), &stands_within());
+    given(Formula::Any(vec![less(&stands_within(), &from_there), moved_evenly]));
 }
 
 fn unexplained(supported: bool) -> Formula {
@@ -113,9 +132,9 @@ fn unexplained(supported: bool) -> Formula {
     if supported {
         given_may_come_from(&scene, "d", "b");
     } else {
-        let moved = &place("d") - &place("b");
-        given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
+        given_slow(&scene, "d", "b");
     }
+    given_not_stood("d", "b");
     Formula::from(is_examined(&scene, [1, 1]))
 }
 
@@ -164,6 +183,7 @@ fn disputed(by_another: bool) -> Formula {
         given_may_come_from(&scene, "d", "a");
     }
     given_may_come_from(&scene, "c", "b");
+    given_not_stood("c", "b");
     let is_confirmed =
         confirmed(&scene).first().is_some_and(|(_, seen)| seen.own_origins[1] == Some(0));
     Formula::from(!is_confirmed || is_examined(&scene, [0, 1]))
@@ -177,6 +197,7 @@ fn of_track(all: usize) -> Formula {
     let (Some(d), Some(origin)) = (seen.detection, seen.own_origins[1]) else {
         return Formula::Known(false);
     };
+    given_not_stood(["c", "d"][d], ["a", "b"][origin]);
     let examined = |item: usize| is_examined(&scene, [d, item]);
     Formula::from(examined(origin) && (all == 0 || (0..2).all(examined)))
 }
