@@ -177,6 +177,6 @@ fn of_detection<'a>(
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || doubtful && may_come_from(scene, lists, d, [k, *item])
     };
-    let is_pair = |item: &usize| is_candidate(item) && is_taken(scene, lists, d, [k, *item]);
+    let is_pair = |item: &usize| is_taken(scene, lists, d, [k, *item]) && is_candidate(item);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

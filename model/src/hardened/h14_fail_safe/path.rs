@@ -171,7 +171,7 @@ impl<'a> End<'a> {
 
     /// A list ends with this place: its length is above the greatest, or its distance from p.
     fn is_at(&self, place: &Vector, length: &Real) -> bool {
-        let is_beyond = |farthest: &Real| place.distance(self.p) > *farthest;
+        let is_beyond = |farthest: &Real| (place - self.p).squared() > farthest.square();
         *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
     }
 }
