@@ -203,7 +203,6 @@ impl<'a> Runner<'a> {
         given_up.sort();
         Ok(Summary {
             campaign,
-            shards: vec![0],
             vectors: self.of_vectors.asked,
             asked: self.of_cases.asked,
             vectors_skipped: self.of_vectors.skipped,
@@ -234,7 +233,6 @@ impl<'a> Runner<'a> {
             drives: settings.drives.iter().map(|path| path.display().to_string()).collect(),
             time_limit_ms: milliseconds(settings.time_limit),
             tolerance: settings.tolerance,
-            of: 1,
         }
     }
 

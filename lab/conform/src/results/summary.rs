@@ -12,8 +12,6 @@ use crate::results::found::Found;
 pub struct Summary {
     /// What was done.
     pub campaign: Campaign,
-    /// Always 0 alone: a campaign is one run.
-    pub shards: Vec<u64>,
     /// Vectors asked.
     pub vectors: u64,
     /// Cases asked.
@@ -67,8 +65,6 @@ pub struct Campaign {
     pub time_limit_ms: u64,
     /// Margin within which a disagreement is none, m.
     pub tolerance: Option<f64>,
-    /// Always 1: a campaign is one run.
-    pub of: u64,
 }
 
 /// Cases that have something in common.

@@ -154,7 +154,7 @@ fn a_turn_at_a_junction_is_within_reach() {
     };
     let poses: Vec<[f64; 4]> = (0..=16).map(turn).collect();
     let mut cycle = diagonal(leads(5.0, &poses));
-    cycle.parameters.tau = 0.4;
+    (cycle.parameters.tau, cycle.parameters.lateral_tolerance) = (0.4, 1.0);
     assert_eq!(safe(&cycle), YES);
     let scene = Scene::new(&cycle, Reading::Exact);
     let trajectory = scene.trajectory.as_ref().expect("it is current");
