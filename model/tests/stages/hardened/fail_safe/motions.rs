@@ -261,7 +261,7 @@ fn work_of_pairs_is_that_of_the_text() {
     assert_eq!(with(vec![explained], 3, 0), (240 + 2 * 5) + 2 * 5 + (176 + 5));
     // The detection stood: only one of the two items of 500 ms ago is taken.
     let mut stood = persons(&[1.8], [&[1.8], &[1.8, 3.3]]);
-    stood.tracks = self::tracks(vec![says(7, [8.0, 1.8, 0.0, 0.0])]);
+    stood.tracks = tracks(vec![says(7, [8.0, 1.8, 0.0, 0.0])]);
     let motions = all_motions(&scene(&stood, Reading::Exact));
     assert_eq!(motions.iter().filter(|motion| motion.named.item.is_some()).count(), 2);
     let work = of_pairs(&scene(&stood, Reading::Strict));
