@@ -171,11 +171,9 @@ impl<'a> End<'a> {
 
     /// A list ends with this place: its length is above the greatest, or its distance from p.
     fn is_at(&self, place: &Vector, length: &Real) -> bool {
+        // The distance is at most the length, up to what a heading is off: no squares where it is clear.
         let is_beyond = |farthest: &Real| {
-            let (away, half) = (place - self.p, farthest / integer(2));
-            // The theorems need this: z3 decides it faster than squares.
-            let is_near = away.x <= half && away.y <= half && -&away.x <= half && -&away.y <= half;
-            !is_near && away.squared() > farthest.square()
+            *length > farthest / integer(2) && (place - self.p).squared() > farthest.square()
         };
         *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
     }
