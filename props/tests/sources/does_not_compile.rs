@@ -65,8 +65,8 @@ fn host() -> String {
 /// Compiles `libm` and `mufasa`, as far as who uses them has to know.
 fn library(folder: &Path) {
     let metadata = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--locked", "--offline"])
-        // What other platforms need was never downloaded.
+        .args(["metadata", "--format-version", "1", "--locked"])
+        // What other platforms need does not have to be downloaded.
         .args(["--filter-platform", &host()])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()

@@ -171,9 +171,10 @@ impl<'a> End<'a> {
 
     /// A list ends with this place: its length is above the greatest, or its distance from p.
     fn is_at(&self, place: &Vector, length: &Real) -> bool {
-        // The distance is at most the length, up to what a heading is off: no squares where it is clear.
+        // Along x and along y together it is no nearer: no squares where that is clear.
         let is_beyond = |farthest: &Real| {
-            *length > farthest / integer(2) && (place - self.p).squared() > farthest.square()
+            let away = place - self.p;
+            away.x.abs() + away.y.abs() > *farthest && away.squared() > farthest.square()
         };
         *length > self.greatest || self.farthest.as_ref().is_some_and(is_beyond)
     }
