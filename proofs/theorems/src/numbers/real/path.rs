@@ -178,7 +178,9 @@ impl Execution {
         }
         let mut possible = |signs: Signs| {
             let assertion = self.path.assertion(key, signs);
-            !matches!(self.ask(&assertion, BRANCH), Satisfiability::Unsat)
+            // Of what is linear alone more is possible, and few steps tell.
+            let is_out = is_linear(&assertion) && self.excludes(&assertion, is_linear);
+            !is_out && !self.excludes(&assertion, |_| true)
         };
         // Some answer is possible on a path that can be reached: without the one, the other is.
         let answer = possible(signs);
@@ -187,10 +189,26 @@ impl Execution {
         branch.answer
     }
 
-    fn ask(&mut self, assertion: &str, effort: Effort) -> Satisfiability {
-        let Some(solver) = &mut self.solver else { return Satisfiability::Unknown };
-        solver.check(&self.path.script_with(assertion), &self.path.names, effort)
+    /// Whether what was assumed, as far as it is kept, rules the assertion out.
+    fn excludes(&mut self, assertion: &str, is_kept: fn(&str) -> bool) -> bool {
+        let script = self.path.script_with(assertion, is_kept);
+        matches!(self.check(&script, BRANCH), Satisfiability::Unsat)
     }
+
+    fn ask(&mut self, assertion: &str, effort: Effort) -> Satisfiability {
+        let script = self.path.script_with(assertion, |_| true);
+        self.check(&script, effort)
+    }
+
+    fn check(&mut self, script: &str, effort: Effort) -> Satisfiability {
+        let Some(solver) = &mut self.solver else { return Satisfiability::Unknown };
+        solver.check(script, &self.path.names, effort)
+    }
+}
+
+/// No product in this SMT-LIB has two variables.
+fn is_linear(assertion: &str) -> bool {
+    !assertion.contains("| |")
 }
 
 impl Path {
@@ -224,9 +242,10 @@ impl Path {
         self.script.push(assertion);
     }
 
-    /// What was assumed, and one more assertion, in SMT-LIB.
-    fn script_with(&self, assertion: &str) -> String {
-        let lines = self.script.iter().map(String::as_str).chain([assertion]);
+    /// What was assumed, as far as it is kept, and one more assertion, in SMT-LIB.
+    fn script_with(&self, assertion: &str, is_kept: fn(&str) -> bool) -> String {
+        let kept = self.script.iter().map(String::as_str).filter(|line| is_kept(line));
+        let lines = kept.chain([assertion]);
         let script: String = lines.flat_map(|line| ["(assert ", line, ")\n"]).collect();
         // Names stand between bars. Those of products that are any numbers are not among the variables.
         let products: BTreeSet<&str> = script.split('|').skip(1).step_by(2).collect();
