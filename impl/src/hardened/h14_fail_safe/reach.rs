@@ -16,7 +16,7 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
-/// No car turns on a smaller circle, m: its radius.
+/// A car is taken to turn on no smaller circle, m: its radius.
 const CIRCLE: f64 = 3.0;
 /// Half of what tyres hold, m/s^2.
 const TYRES: f64 = 5.75;
@@ -73,7 +73,7 @@ fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {
     let (h, away) = (vector([ego.cos, ego.sin]), place.pose.at - Vector::new(ego.x, ego.y));
     let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
     let heading = vector(place.pose.heading);
-    // H-14.62
+    // H-14.62; A-10
     let (along, sine) = (h.dot(heading), h.cross(heading).abs());
     if !Real::ZERO.certainly_below(along) {
         return Some(Witness::of(Rule::Reach, [along.value(), 0.0]));
@@ -91,7 +91,7 @@ fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness>
     let away = x - Vector::new(ego.x, ego.y);
     let h = vector([ego.cos, ego.sin]);
     let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
-    // H-14.15
+    // H-14.15; A-10
     if times.s_b.certainly_at_most(f) {
         return None;
     }

@@ -105,7 +105,7 @@ fn ends(number: Real) -> [f64; 2] {
     [number.value() - number.off(), number.value() + number.off()]
 }
 
-/// No path is longer, m (H-14.60).
+/// No path within reach is longer, m (H-14.60, H-14.61).
 pub(crate) fn longest<N: Number>(s_stop: N) -> N {
     double(s_stop).plus(N::from_double(1.0))
 }

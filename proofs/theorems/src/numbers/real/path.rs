@@ -178,8 +178,9 @@ impl Execution {
         }
         let mut possible = |signs: Signs| {
             let assertion = self.path.assertion(key, signs);
-            // Of what is linear alone more is possible, and few steps tell.
-            let is_out = is_linear(&assertion) && self.excludes(&assertion, is_linear);
+            // Of what is linear alone more is possible, and few steps tell. Where roots are any numbers, most is linear.
+            let is_asked = is_linear(&assertion) && !self.path.roots_are_any_numbers;
+            let is_out = is_asked && self.excludes(&assertion, is_linear);
             !is_out && !self.excludes(&assertion, |_| true)
         };
         // Some answer is possible on a path that can be reached: without the one, the other is.

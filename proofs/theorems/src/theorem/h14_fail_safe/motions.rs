@@ -19,8 +19,8 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "H-14: if d and d' are items of the current and the reference list, abs(d - d') <= \
                     v_object dt, d is unexplained and d' supported, and d did not stand or moved evenly from d', \
                     (d, d') is examined as moving",
-        domain: "all positions, v_object, theta_track_max > 0; the remote list is empty; d the second of two \
-                 detections, d' the second of two items of 500 ms ago, its support one item of 300 ms ago",
+        domain: "all positions, v_object, theta_track_max > 0; the remote list is empty; d the only detection, d' \
+                 the second of two items of 500 ms ago, its support one item of 300 ms ago",
         claim: || unexplained(true),
         wrong: Wrong { statement: "also without support", claim: || unexplained(false) },
     },
@@ -73,12 +73,12 @@ fn place(name: &str) -> Vector {
     Vector { x, y }
 }
 
-/// A scene of MotRemote with these tracks, two detections c and d, the items a and b of 500 ms ago and s of
-/// 300 ms ago, and parameters above 0.
-fn scene(tracks: Vec<Track>) -> Scene {
+/// A scene of MotRemote with these tracks and detections, the items a and b of 500 ms ago and s of 300 ms ago,
+/// and parameters above 0.
+fn scene(tracks: Vec<Track>, detections: &[&str]) -> Scene {
     let mut cycle = base::cycle(Profile::HARDENED, MotRemote);
     cycle.tracks = Some(TrackList { stamp_ns: NOW_NS, items: tracks });
-    cycle.detections = Some(list(0, vec![anywhere("c"), anywhere("d")]));
+    cycle.detections = Some(list(0, detections.iter().copied().map(anywhere).collect()));
     cycle.detection_history =
         vec![list(300, vec![anywhere("s")]), list(500, vec![anywhere("a"), anywhere("b")])];
     let p = &mut cycle.parameters;
@@ -128,14 +128,14 @@ fn given_not_stood(detection: &str, item: &str) {
 
 fn unexplained(supported: bool) -> Formula {
     forget_of_what_roots_are();
-    let scene = scene(Vec::new());
+    let scene = scene(Vec::new(), &["d"]);
     if supported {
         given_may_come_from(&scene, "d", "b");
     } else {
         given_slow(&scene, "d", "b");
     }
     given_not_stood("d", "b");
-    Formula::from(is_examined(&scene, [1, 1]))
+    Formula::from(is_examined(&scene, [0, 1]))
 }
 
 /// Whether the detection and the item of 500 ms ago are examined as moving.
@@ -167,7 +167,7 @@ fn says() -> Track {
 fn disputed(by_another: bool) -> Formula {
     forget_of_what_roots_are();
     let track = Track { x: open_number("c x"), y: open_number("c y"), vy: 0.0, ..says() };
-    let scene = scene(vec![track]);
+    let scene = scene(vec![track], &["c", "d"]);
     let p = &scene.parameters;
     let past = |dt: Real| {
         let v = Vector { x: Real::named("v x"), y: Real::zero() };
@@ -190,7 +190,7 @@ fn disputed(by_another: bool) -> Formula {
 }
 
 fn of_track(all: usize) -> Formula {
-    let scene = scene(vec![says()]);
+    let scene = scene(vec![says()], &["c", "d"]);
     let confirmed = confirmed(&scene);
     let Some((_, seen)) = confirmed.first() else { return Formula::Known(true) };
     // Two lists: a backed track has its own origin in both.
