@@ -22,7 +22,8 @@ fn theorems_are_proved_and_their_wrong_variants_refuted() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
-    let (long, others): (Vec<_>, Vec<_>) = theorem::all().partition(|theorem| LONG.contains(&theorem.id));
+    let (long, others): (Vec<_>, Vec<_>) =
+        theorem::all().partition(|theorem| LONG.contains(&theorem.id));
     assert_eq!(long.len(), LONG.len());
     for id in LONG {
         println!("NOT RUN: {id}, which `mufasa prove` proves");
