@@ -203,8 +203,8 @@ impl Motions<'_, '_, '_> {
             if may_stand || self.lists.is_supported(&origin, scratch.columns) {
                 self.keep_pair(&motion, &pair, |it| {
                     let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
-                    (may_stand || track.is_none_or(is_disputed))
-                        && it.lists.is_taken(&origin, &mut has_stood, scratch.columns)
+                    it.lists.is_taken(&origin, &mut has_stood, scratch.columns)
+                        && (may_stand || track.is_none_or(is_disputed))
                 });
             }
         });
