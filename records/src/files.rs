@@ -13,7 +13,7 @@ pub fn prepare(folder: &Path) -> io::Result<()> {
     let probe = folder.join(".mufasa.svg.tmp");
     fs::write(&probe, [])?;
     match fs::remove_file(&probe) {
-        // Another program that writes to the same folder was faster.
+        // Another shard that writes to the same folder was faster.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         removed => removed,
     }

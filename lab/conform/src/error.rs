@@ -27,6 +27,8 @@ pub enum ConformError {
     NoCycles,
     /// The only thing that could be read is wrong.
     Read(Box<ReadError>),
+    /// Summaries that are not shards of one campaign.
+    Merge(String),
     /// A vector that cannot be read.
     Vectors(String),
     /// The report cannot be written.
@@ -57,6 +59,7 @@ impl fmt::Display for ConformError {
             Self::NoCycles => f.write_str("the files given with --drives hold no cycles"),
             Self::Read(error) => write!(f, "{error}"),
             Self::Vectors(message) => write!(f, "the vectors are wrong: {message}"),
+            Self::Merge(message) => f.write_str(message),
             Self::Output(error) => write!(f, "the report cannot be written: {error}"),
         }
     }

@@ -77,10 +77,11 @@ impl<'a> Runner<'a> {
         vectors: &'a [Given],
         subject: Subject,
     ) -> Self {
+        let (first, step) = settings.shard.unwrap_or((0, 1));
         let cases = source.cases(settings.cases);
         Self {
             settings,
-            order: Order { source, vectors, cases },
+            order: Order { source, vectors, cases, first, step },
             starts: subject.starts(),
             subject,
             bar: ProgressBar::hidden(),
@@ -109,7 +110,7 @@ impl<'a> Runner<'a> {
                 self.interrupted = true;
                 break;
             }
-            if position == order.vectors() && self.has_enough() {
+            if position == order.vectors_here() && self.has_enough() {
                 self.enough = true;
                 break;
             }
@@ -142,11 +143,11 @@ impl<'a> Runner<'a> {
     }
 
     /// Whether the vectors show that so much is wrong that random cases would say no more; never where their
-    /// number was given.
+    /// number was given, and not in a shard, which sees some of the vectors.
     fn has_enough(&self) -> bool {
-        let Settings { cases, drives, .. } = self.settings;
+        let Settings { cases, shard, drives, .. } = self.settings;
         let wrong = self.classes.values().map(|it| it.count).sum();
-        let is_asked_for = cases.is_some() || !drives.is_empty();
+        let is_asked_for = cases.is_some() || shard.is_some() || !drives.is_empty();
         !is_asked_for && advice::is_much(wrong, self.of_vectors.asked)
     }
 
@@ -203,6 +204,7 @@ impl<'a> Runner<'a> {
         given_up.sort();
         Ok(Summary {
             campaign,
+            shards: vec![self.settings.shard.map_or(0, |(at, _)| at)],
             vectors: self.of_vectors.asked,
             asked: self.of_cases.asked,
             vectors_skipped: self.of_vectors.skipped,
@@ -227,12 +229,13 @@ impl<'a> Runner<'a> {
             command: settings.command.iter().map(text).collect(),
             profile: names::profile(settings.profile).to_owned(),
             seed: settings.seed,
-            vectors: self.order.vectors(),
+            vectors: self.order.vectors.len() as u64,
             cases: self.order.cases,
             kinds: self.order.source.kinds(),
             drives: settings.drives.iter().map(|path| path.display().to_string()).collect(),
             time_limit_ms: milliseconds(settings.time_limit),
             tolerance: settings.tolerance,
+            of: settings.shard.map_or(1, |(_, of)| of),
         }
     }
 

@@ -17,7 +17,7 @@ pub struct Settings {
     pub command: Vec<OsString>,
     /// Profile of generated cases and of recorded drives.
     pub profile: Profile,
-    /// Cases, vectors not counted; by default 10,000, or all that the drives give.
+    /// Cases of all shards, vectors not counted; by default 10,000, or all that the drives give.
     pub cases: Option<u64>,
     /// Seed of the cases.
     pub seed: u64,
@@ -27,13 +27,15 @@ pub struct Settings {
     pub shrinking: Duration,
     /// Kinds of generated records.
     pub kinds: Vec<Kind>,
+    /// Only the cases whose number leaves the first when divided by the second.
+    pub shard: Option<(u64, u64)>,
     /// Files of drives that give the cases instead.
     pub drives: Vec<PathBuf>,
     /// Whether the vectors that fit are asked before generated cases.
     pub vectors: bool,
     /// Margin within which a disagreement is none, m.
     pub tolerance: Option<f64>,
-    /// Where summary and reproducers go.
+    /// Where summary, JUnit and reproducers go.
     pub out: PathBuf,
 }
 
@@ -50,6 +52,7 @@ impl Settings {
             time_limit: Duration::ZERO,
             shrinking: Duration::ZERO,
             kinds: kinds.into(),
+            shard: None,
             drives: Vec::new(),
             vectors: true,
             tolerance: None,

@@ -25,7 +25,7 @@ use self::arguments::{
     CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, IntegrateArguments,
     ManArguments, OracleArguments, SchemasArguments, VectorsArguments, file_or, folder_or,
 };
-use self::conform::ConformArguments;
+use self::conform::{ConformArguments, MergeCommand};
 #[cfg(feature = "link")]
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
@@ -35,6 +35,8 @@ use crate::ended::{BAD_INPUT, Ended, Stopped, cannot, complain, said};
 use crate::evaluate;
 #[cfg(feature = "link")]
 use crate::evaluate::arguments::EvaluateArguments;
+#[cfg(feature = "link")]
+use crate::evaluate::merge::MergeArguments;
 use crate::explore;
 use crate::integrate;
 use crate::parameters_file;
@@ -90,6 +92,9 @@ enum Command {
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     #[cfg(feature = "link")]
     Evaluate(EvaluateArguments),
+    /// Put the parts of an experiment together that were made by `evaluate --shard`.
+    #[cfg(feature = "link")]
+    Merge(MergeArguments),
     /// Drive a drive with requester and monitor, beside a station or over a broker.
     #[cfg(feature = "link")]
     Vehicle(VehicleArguments),
@@ -158,6 +163,8 @@ pub fn main() -> ExitCode {
         #[cfg(feature = "link")]
         Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         #[cfg(feature = "link")]
+        Command::Merge(arguments) => merge(&arguments, &mut out),
+        #[cfg(feature = "link")]
         Command::Vehicle(arguments) => {
             interrupts().and_then(|stop| crate::link::vehicle(&arguments, &stop, &mut out))
         }
@@ -205,7 +212,8 @@ fn tip(error: &clap::Error, mut given: impl Iterator<Item = OsString>) -> Option
             | ErrorKind::InvalidSubcommand
             | ErrorKind::MissingRequiredArgument
     );
-    let of_conform = given.by_ref().any(|it| it == "conform") && given.all(|it| it != "--");
+    let of_conform =
+        given.by_ref().any(|it| it == "conform") && given.all(|it| it != "--" && it != "merge");
     (is_about && of_conform).then_some(
         "the program under test stands behind `--`: mufasa conform [OPTIONS] -- COMMAND...",
     )
@@ -256,14 +264,15 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> Ended {
 
 /// Exit code 0 with a composition, 1 without, 2 for bad input.
 fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> Ended {
-    let Some(file) = &arguments.file else {
+    let ComposeArguments { file, dot, .. } = arguments;
+    let Some(file) = file else {
         write!(out, "{}", compose::EXAMPLE)?;
         return Ok(0);
     };
     let text = fs::read_to_string(file).map_err(cannot(file, "read"))?;
     let composed =
         compose::composed(&text).map_err(|error| format!("{}: {error}", file.display()))?;
-    write!(out, "{}", composed.table())?;
+    write!(out, "{}", if *dot { composed.dot() } else { composed.table() })?;
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 
@@ -288,6 +297,9 @@ fn evaluate(arguments: &EvaluateArguments, out: &mut impl Write) -> Ended {
 }
 
 fn conform(arguments: ConformArguments, out: &mut impl Write) -> Ended {
+    if let Some(MergeCommand::Merge { files, out: folder }) = arguments.merge {
+        return conformed(kit::merge(&files, folder.as_ref(), out));
+    }
     let settings = kit::Settings {
         version: env!("MUFASA_VERSION").to_owned(),
         command: arguments.command,
@@ -297,12 +309,29 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> Ended {
         time_limit: Duration::from_millis(arguments.time_limit),
         shrinking: Duration::from_secs(arguments.shrinking),
         kinds: arguments.kinds,
+        shard: arguments.shard,
         drives: arguments.drives,
         vectors: !arguments.no_vectors,
         tolerance: arguments.tolerance,
         out: folder_or(arguments.out, "mufasa-conform"),
     };
-    let result = kit::run(&settings, &interrupts()?, out, &mut io::stderr());
+    conformed(kit::run(&settings, &interrupts()?, out, &mut io::stderr()))
+}
+
+/// Parts of an experiment, or of a campaign of `conform`.
+#[cfg(feature = "link")]
+fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
+    let MergeArguments { parts, map, out: folder } = arguments;
+    if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {
+        return evaluate::shards::merge(arguments, out);
+    }
+    if map.is_some() {
+        return Err(String::from("--map: a campaign of conform has no map").into());
+    }
+    conformed(kit::merge(parts, folder.as_ref(), out))
+}
+
+fn conformed(result: Result<u8, kit::ConformError>) -> Ended {
     result.map_err(|error| match error {
         kit::ConformError::Output(error) => Stopped::Stream(error),
         error => Stopped::Refused(error.to_string()),

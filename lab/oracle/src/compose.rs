@@ -1,5 +1,9 @@
-//! All compositions of a service set, as a table
+//! All compositions of a service set, as a table and as a graph
 //! (`spec/1-services.md#composition`, `spec/5-interfaces.md#composition`; paper Fig. 2).
+
+pub mod graph;
+
+mod dot;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,9 +11,10 @@ use comfy_table::{ContentArrangement, Table, presets};
 use mufasa_model::report::InvalidInput;
 use mufasa_model::services::composition::{Composition, Link};
 use mufasa_model::services::orchestrator::{Answer, NoComposition, Task};
-use mufasa_model::services::service::{CAV, ServiceSet};
+use mufasa_model::services::service::ServiceSet;
 use serde::de::IgnoredAny;
 
+use graph::Graph;
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::{self as json, LineError, Record, names};
 
@@ -68,6 +73,16 @@ impl Composed {
         CompositionAnswer::new(self.id.clone(), self.answer.clone())
     }
 
+    /// The services and links that some composition uses; without a composition everything that
+    /// could provide something for the goal.
+    pub fn graph(&self) -> Graph {
+        if self.answer.compositions.is_empty() {
+            Graph::of_feeds(&self.services, &self.task.goal)
+        } else {
+            Graph::of_compositions(&self.services, &self.task.goal, &self.answer.compositions)
+        }
+    }
+
     /// One row per composition, below a line that says how many there are, or why there is none.
     /// What all compositions have in common stands above the table.
     pub fn table(&self) -> String {
@@ -90,7 +105,7 @@ impl Composed {
         table.load_style(presets::UTF8_FULL);
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(TABLE_WIDTH);
         let mut header = vec![String::from("#")];
-        header.extend(stations.iter().map(|station| station_name(*station)));
+        header.extend(stations.iter().map(|station| graph::station_name(*station)));
         header.extend(links_differ.then(|| String::from("choices")));
         header.push(String::from("device switches"));
         table.set_header(header);
@@ -105,6 +120,11 @@ impl Composed {
         }
         text.extend([&table.to_string(), "\n"]);
         text
+    }
+
+    /// The graph in the language of Graphviz, the goal at the top.
+    pub fn dot(&self) -> String {
+        dot::draw(&self.graph())
     }
 
     fn summary(&self) -> String {
@@ -177,15 +197,6 @@ impl Composed {
             .filter(|id| !used.contains(id))
             .map(String::as_str)
             .collect()
-    }
-}
-
-/// The name of a station in the table (I-01).
-fn station_name(station: i64) -> String {
-    if station == CAV {
-        String::from("station 0 (CAV)")
-    } else {
-        format!("station {station} (MEC)")
     }
 }
 

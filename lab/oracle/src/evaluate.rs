@@ -4,9 +4,12 @@ pub mod arguments;
 mod falsify;
 mod maps;
 pub mod margins;
+pub mod merge;
+mod parts;
 mod replay;
 mod report;
 mod scenes;
+pub mod shards;
 pub mod tables;
 mod text;
 mod work;
@@ -19,6 +22,7 @@ use std::sync::atomic::AtomicBool;
 
 use indicatif::ProgressBar;
 use mufasa_drives::progress;
+use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::job::Job;
@@ -70,6 +74,7 @@ pub fn run(arguments: &EvaluateArguments, stop: &AtomicBool, out: &mut impl Writ
         Some(Asked::LeftOut(size)) => (size, "left-out"),
     };
     let select = Select {
+        shard: size.shard,
         checked_every: if size.check_all { 1 } else { CHECKED_EVERY },
         draws: size.out.is_some(),
         ..Select::only(size.only.as_deref())
@@ -79,7 +84,10 @@ pub fn run(arguments: &EvaluateArguments, stop: &AtomicBool, out: &mut impl Writ
     let town = maps::of(size.map.as_deref())?;
     let shown = named(name).ok_or_else(|| format!("{name}: no experiment"))?;
     let results = in_threads(size.threads, &town, &task, shown)?;
-    ended(results, select, size.out.as_deref(), out)
+    match (size.shard, &size.out) {
+        (Some(shard), Some(folder)) => shards::write(folder, shard, &results, select, out),
+        _ => ended(results, select, size.out.as_deref(), out),
+    }
 }
 
 /// Writes what was made: the table, and files where they are asked for.
@@ -168,6 +176,19 @@ fn made((experiment, columns): Shown, task: &Task<'_>, town: &Town) -> Made {
         csv: [csv(&made.rows)?, csv(&made.runs)?],
         failed: failed.cloned().collect(),
     })
+}
+
+/// The names of the pages of runs that failed.
+fn draw(folder: &Path, drawn: &BTreeMap<String, String>) -> io::Result<Vec<PathBuf>> {
+    if !drawn.is_empty() {
+        files::prepare(&folder.join(REPLAYS))?;
+    }
+    let write = |(id, page): (&String, &String)| {
+        let name = page_of(id);
+        files::write(&folder.join(&name), page)?;
+        Ok(name)
+    };
+    drawn.iter().map(write).collect()
 }
 
 /// The file of a run's page in the folder of its experiment.

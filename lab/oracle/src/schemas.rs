@@ -14,6 +14,8 @@ use mufasa_records::{files, schema};
 #[cfg(feature = "link")]
 use mufasa_sim::experiment::made::Made;
 #[cfg(feature = "link")]
+use mufasa_sim::experiment::select::Part;
+#[cfg(feature = "link")]
 use mufasa_sim::experiment::{falsify, scenes};
 use serde_json::Value;
 
@@ -57,7 +59,9 @@ fn of_link() -> Vec<(&'static str, Value)> {
         ("vehicle-log", schema::written::<vehicle::log::Entry>()),
         ("station-summary", schema::written::<StationSummary>()),
         ("evaluation-scenes", schema::written::<scenes::Scenes>()),
+        ("evaluation-part", schema::written::<Part>()),
         ("evaluation-falsify", schema::written::<falsify::Falsified>()),
+        ("evaluation-falsify-part", schema::written::<Part<falsify::Options>>()),
         ("evaluation-found", schema::written::<falsify::found::Found>()),
     ]);
     schemas

@@ -40,6 +40,9 @@ type Exceptions = [(&'static str, &'static str)];
 /// Long files.
 const LONG: &Exceptions = &[];
 
+/// Modules of one package that know each other, by a module of the circle.
+const CIRCLES: &Exceptions = &[];
+
 /// Modules that only one of model and implementation has.
 const UNEQUAL: &Exceptions = &[
     ("impl/src/input/detection_index", "saves time; no verdict depends on it"),
@@ -86,13 +89,19 @@ fn no_file_of_rust_has_more_than_400_lines() {
     judge(&length::too_long(&Tree::here(), 400), LONG);
 }
 
+/// Who has to know a circle has to know all of it at once.
+#[test]
+fn no_modules_of_a_package_know_each_other_in_a_circle() {
+    judge(&circles::of_modules(&Tree::here()), CIRCLES);
+}
+
 /// What a rule changes it changes from outside.
 #[test]
 fn no_stage_knows_a_rule() {
     judge(&circles::stages_that_know_rules(&Tree::here()), &[]);
 }
 
-/// Who has to know a circle has to know all of it at once. Tests count, since they too have to be built and read.
+/// As above; tests count, since they too have to be built and read.
 #[test]
 fn no_packages_depend_on_each_other_in_a_circle() {
     judge(&packages::circles(&Tree::here()), &[]);

@@ -7,7 +7,7 @@ use crate::cases::vectors::Given;
 /// A vector or case.
 #[derive(Debug)]
 pub struct Case {
-    /// Its place among all vectors and cases.
+    /// Its place among all vectors and cases of all shards.
     pub at: u64,
     /// Its number; vectors have none.
     pub number: Option<u64>,

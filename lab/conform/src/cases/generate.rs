@@ -1,5 +1,5 @@
 //! Generated cases: the strategies of `props`, each case from a tape of its own, so that a case
-//! is the same whatever was asked before.
+//! is the same whatever the shard.
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
@@ -118,7 +118,7 @@ impl Generator {
 
     /// Whether a case is one of neighbours whose roads are alike, so that of two cycles in
     /// succession the second shows what a program keeps of the route of the first. A program that
-    /// keeps it longer meets others of them.
+    /// keeps it longer meets others of them, in every shard.
     fn is_succession(&self, case: u64) -> bool {
         mix(self.seed ^ mix(case / NEIGHBOURS)).is_multiple_of(SUCCESSIONS)
     }

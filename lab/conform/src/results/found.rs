@@ -50,6 +50,9 @@ pub struct Found {
     /// The shrunk record; a line that is no JSON as a string.
     #[schemars(with = "serde_json::Value")]
     pub record: Box<RawValue>,
+    /// Of a shard: what came of each vector and case of the class that was tried, for `merge` to choose from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tried: Vec<Found>,
 }
 
 /// Why a record was not made small.
@@ -100,6 +103,23 @@ impl Found {
     /// Whether no further case of its class is tried.
     pub fn is_small(&self) -> bool {
         self.shrunk && self.size <= SMALL
+    }
+
+    /// The same class in other shards. Of what was tried there that is shown which one run would have come to.
+    pub fn with(self, other: &Self) -> Self {
+        let first = self.first.into_iter().chain(other.first).min();
+        let count = self.count + other.count;
+        let mut vectors = [self.vectors.as_slice(), &other.vectors].concat();
+        vectors.sort_unstable();
+        let class = self.class.clone();
+        let of = |found: &Self| match found.tried.as_slice() {
+            [] => vec![found.clone()],
+            tried => tried.to_vec(),
+        };
+        let mut tried = [of(&self), of(other)].concat();
+        tried.sort_by_key(|it| (!it.is_tried(), it.at));
+        let shown = best(&tried).cloned().unwrap_or(self);
+        Self { class, count, vectors, first, tried, ..shown }
     }
 
     /// Which of two cases of a class says more: the lower.

@@ -2,6 +2,7 @@
 
 pub mod advice;
 pub mod found;
+pub mod junit;
 pub mod report;
 pub mod seeded;
 pub mod summary;

@@ -9,7 +9,7 @@ use crate::error::ConformError;
 use crate::judge::class::{Class, Kind};
 use crate::results::found::{Found, NotShrunk};
 use crate::results::summary::{Campaign, CaseCount, Summary};
-use crate::results::{advice, seeded};
+use crate::results::{advice, junit, seeded};
 use mufasa_records::files;
 
 /// So many vectors that disagree are named; the summary has all.
@@ -157,8 +157,11 @@ fn vectors(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
 
 /// The line of the cases.
 fn cases(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
-    let Campaign { cases, .. } = &summary.campaign;
+    let Campaign { cases, of, .. } = &summary.campaign;
     write!(out, "{} of {cases} cases asked", summary.asked)?;
+    if *of > 1 {
+        write!(out, " ({} of {of} shards)", summary.shards.len())?;
+    }
     left_out(summary.skipped, summary.tolerated, out)?;
     if summary.interrupted {
         write!(out, ", INTERRUPTED")?;
@@ -221,30 +224,37 @@ fn coverage(groups: &[CaseCount]) -> String {
     text
 }
 
-/// The files of a campaign in a folder.
+/// The files of a campaign or shard in a folder.
 #[derive(Clone, Debug)]
 pub struct Files {
     /// JSON.
     pub summary: PathBuf,
+    /// For build servers.
+    pub junit: PathBuf,
     /// The shrunk records, JSON Lines.
     pub reproducers: PathBuf,
     folder: PathBuf,
+    /// What a shard puts into the names of its files.
+    part: String,
 }
 
 impl Files {
     /// Prepares the folder and removes what an earlier run left under the same names, so that
     /// nothing there looks like a result of this one before it is.
     /// Errors: the folder cannot be written to.
-    pub fn prepare(folder: &Path) -> Result<Self, ConformError> {
+    pub fn prepare(folder: &Path, shard: Option<(u64, u64)>) -> Result<Self, ConformError> {
         let denied = |error| ConformError::file(folder, format!("cannot be written to: {error}"));
         files::prepare(folder).map_err(denied)?;
+        let part = shard.map_or(String::new(), |(at, of)| format!(".{at}-of-{of}"));
         let these = Self {
-            summary: folder.join("summary.json"),
-            reproducers: folder.join("reproducers.jsonl"),
+            summary: folder.join(format!("summary{part}.json")),
+            junit: folder.join(format!("junit{part}.xml")),
+            reproducers: folder.join(format!("reproducers{part}.jsonl")),
             folder: folder.to_owned(),
+            part,
         };
         let sequences = these.sequences().map_err(denied)?;
-        let single = [&these.summary, &these.reproducers];
+        let single = [&these.summary, &these.junit, &these.reproducers];
         for file in single.into_iter().chain(&sequences) {
             match fs::remove_file(file) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(denied(error)),
@@ -254,11 +264,12 @@ impl Files {
         Ok(these)
     }
 
-    /// The sequences in the folder: `sequence.ID.jsonl`.
+    /// The sequences in the folder: `sequence.ID.jsonl`, of a shard `sequence.0-of-8.ID.jsonl`.
     fn sequences(&self) -> io::Result<Vec<PathBuf>> {
+        let prefix = format!("sequence{}.", self.part);
         let is_one = |path: &PathBuf| {
             let name = path.file_name().and_then(|name| name.to_str());
-            let id = name.and_then(|name| name.strip_prefix("sequence.")?.strip_suffix(".jsonl"));
+            let id = name.and_then(|name| name.strip_prefix(&prefix)?.strip_suffix(".jsonl"));
             id.is_some_and(|id| !id.contains('.'))
         };
         let entries: io::Result<Vec<_>> = fs::read_dir(&self.folder)?.collect();
@@ -271,10 +282,14 @@ impl Files {
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
         let sequences = summary.classes.iter().filter_map(|found| {
-            let name = format!("sequence.{}.jsonl", found.id);
+            let name = format!("sequence{}.{}.jsonl", self.part, found.id);
             Some((self.folder.join(name), found.sequence()?))
         });
-        let rest = [(self.reproducers.clone(), lines), (self.summary.clone(), json + "\n")];
+        let rest = [
+            (self.reproducers.clone(), lines),
+            (self.junit.clone(), junit::xml(summary)),
+            (self.summary.clone(), json + "\n"),
+        ];
         for (path, content) in sequences.chain(rest) {
             files::write(&path, &content).map_err(|error| {
                 ConformError::file(&path, format!("cannot be written: {error}"))
@@ -314,6 +329,7 @@ mod tests {
             told,
             shrunk: true,
             why: None,
+            tried: Vec::new(),
             before: Vec::new(),
             size: 1,
             unit: String::from("object"),

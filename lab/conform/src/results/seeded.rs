@@ -50,7 +50,7 @@ impl Bug {
 /// or with a tolerance.
 pub fn words(summary: &Summary) -> Option<String> {
     let campaign = &summary.campaign;
-    let is_whole = !summary.interrupted && summary.skipped + summary.vectors_skipped == 0;
+    let is_whole = summary.is_complete() && summary.skipped + summary.vectors_skipped == 0;
     let is_clean = summary.classes.is_empty() && is_whole;
     let is_plain = campaign.drives.is_empty() && campaign.tolerance.is_none();
     // It is a file of this package; a test reads it.
@@ -122,12 +122,12 @@ mod tests {
 
     fn campaign(profile: &str, kinds: &[Kind], vectors: u64, cases: u64) -> Campaign {
         let (profile, kinds) = (profile.to_owned(), kinds.into());
-        Campaign { profile, vectors, cases, kinds, ..Campaign::default() }
+        Campaign { profile, vectors, cases, kinds, of: 1, ..Campaign::default() }
     }
 
     fn summary(campaign: Campaign) -> Summary {
         let (vectors, asked) = (campaign.vectors, campaign.cases);
-        Summary { campaign, vectors, asked, ..Summary::default() }
+        Summary { campaign, vectors, asked, shards: vec![0], ..Summary::default() }
     }
 
     fn bug(name: &str, vectors: u64, first: &[Option<u64>]) -> Bug {
@@ -342,5 +342,6 @@ mod tests {
         assert_eq!(words(&Summary { interrupted: true, ..clean() }), None);
         assert_eq!(words(&Summary { skipped: 1, ..clean() }), None);
         assert_eq!(words(&Summary { vectors_skipped: 1, ..clean() }), None);
+        assert_eq!(words(&Summary { shards: Vec::new(), ..clean() }), None);
     }
 }

@@ -114,7 +114,8 @@ impl Shrinking<'_> {
             let mut vectors = sightings.vectors.clone();
             vectors.sort_unstable();
             let shown = best(&tries)?.clone();
-            Some(Found { count, vectors, first, ..shown })
+            let tried = if self.settings.shard.is_some() { tries } else { Vec::new() };
+            Some(Found { count, vectors, first, tried, ..shown })
         });
         Ok(found.collect())
     }
@@ -216,6 +217,7 @@ fn found(class: &Class, case: Case, told: Told, why: Option<NotShrunk>) -> Found
         size: question.objects(),
         unit: question.unit().to_owned(),
         record: record(&question.line(&id)),
+        tried: Vec::new(),
         id,
     }
 }

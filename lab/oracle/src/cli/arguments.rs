@@ -125,8 +125,11 @@ pub(super) struct ComposeArguments {
     #[arg(required_unless_present = "example")]
     pub(super) file: Option<PathBuf>,
     /// Print a record to begin with, that of the paper's Fig. 2, and end.
-    #[arg(long, conflicts_with = "file")]
+    #[arg(long, conflicts_with_all = ["file", "dot"])]
     pub(super) example: bool,
+    /// Write the graph in the language of Graphviz.
+    #[arg(long)]
+    pub(super) dot: bool,
 }
 
 #[derive(Args)]

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use mufasa_conform::Kind;
 use mufasa_model::input::cycle::Profile;
 
@@ -22,15 +22,22 @@ spec/5-interfaces.md has the fields of records and answers, docs/conformance.md 
     mufasa conform --profile paper --kinds cycle -- node program.mjs
 
 Exit codes: 0 no disagreement (none beyond --tolerance, which is no conformance), 1 some, 2 bad
-input, or nothing was compared, 130 interrupted: the files hold what was known.";
+input, nothing was compared, or (merge) a shard is missing or was interrupted, 130 interrupted: the
+files hold what was known.";
 
 #[derive(Args)]
-#[command(after_help = CONFORM_HELP)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = CONFORM_HELP
+)]
 pub(super) struct ConformArguments {
+    #[command(subcommand)]
+    pub(super) merge: Option<MergeCommand>,
     /// Profile of generated cases and of recorded drives.
     #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
     pub(super) profile: Profile,
-    /// Number of cases behind the vectors; by default 10000, or all that the drives give.
+    /// Number of cases behind the vectors, all shards together; by default 10000, or all that the drives give.
     /// Without it none is asked where more than a fifth of the vectors is answered wrongly.
     #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
     pub(super) cases: Option<u64>,
@@ -53,6 +60,9 @@ pub(super) struct ConformArguments {
         default_value = "cycle,offloading,composition,line"
     )]
     pub(super) kinds: Vec<Kind>,
+    /// Ask only the cases whose number leaves I when divided by N, such as 0/8.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub(super) shard: Option<(u64, u64)>,
     /// Leave out the vectors, which are asked first, but never with drives.
     #[arg(long)]
     pub(super) no_vectors: bool,
@@ -62,10 +72,34 @@ pub(super) struct ConformArguments {
     /// Let pass what a margin of so many metres explains, 1e-8 to 1e-2, and a rounded norm.
     #[arg(long, value_name = "M", value_parser = number(1e-8, 1e-2))]
     pub(super) tolerance: Option<f64>,
-    /// Folder for the summary (JSON) and the shrunk records [default: mufasa-conform].
+    /// Folder for the summary (JSON), the report (JUnit XML) and the shrunk records
+    /// [default: mufasa-conform].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// The program under test and its arguments.
     #[arg(last = true, required = true)]
     pub(super) command: Vec<OsString>,
+}
+
+#[derive(Subcommand)]
+pub(super) enum MergeCommand {
+    /// Join the summaries of shards.
+    Merge {
+        /// Summaries of all shards of one campaign.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Folder for the joined files.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+}
+
+/// `I/N` with I below N.
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let (at, of) = text.split_once('/').ok_or("must be I/N, such as 0/8")?;
+    match (at.parse(), of.parse()) {
+        (Ok(at), Ok(of)) if at < of => Ok((at, of)),
+        (Ok(_), Ok(_)) => Err(String::from("I must be below N; shards are counted from 0")),
+        (_, _) => Err(String::from("must be two whole numbers I/N, such as 0/8")),
+    }
 }

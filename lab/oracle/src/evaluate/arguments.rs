@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use mufasa_sim::experiment::select::Options;
+use mufasa_sim::experiment::select::{Options, Shard};
 
 use super::falsify::FalsifyArguments;
 use super::margins::MarginsArguments;
+use super::parts::shard;
 use super::replay::{ReplayArguments, run_id};
 use super::scenes::ScenesArguments;
 use crate::limits::whole;
@@ -94,6 +95,10 @@ pub struct SizeArguments {
     /// Only runs whose id is this or begins with these parts, such as failures/paper/empty-tracks/0/3.
     #[arg(long, value_name = "ID", value_parser = run_id)]
     pub only: Option<String>,
+    /// Only one of N parts of the runs, such as 2/8, for other machines to make the others; `mufasa merge` puts
+    /// the parts together.
+    #[arg(long, value_name = "I/N", value_parser = shard, requires = "out", conflicts_with = "only")]
+    pub shard: Option<Shard>,
     /// Check every cycle that the stages decide by the exact model, not one in a hundred.
     #[arg(long)]
     pub check_all: bool,

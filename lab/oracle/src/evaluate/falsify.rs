@@ -1,5 +1,6 @@
 //! The search for collisions (`mufasa_sim::experiment::falsify`).
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,14 +11,21 @@ use indicatif::ProgressBar;
 use mufasa_drives::progress;
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::falsify::NAME;
+use mufasa_sim::experiment::checks::Checks;
+pub(super) use mufasa_sim::experiment::falsify::NAME;
 use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::falsify::genome::KINDS;
-use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, Progress, experiment};
+use mufasa_sim::experiment::falsify::{
+    Caller, Falsified, Options, Progress, Round, experiment, part,
+};
+use mufasa_sim::experiment::select::{Part, Shard};
 use mufasa_sim::map::Town;
 use mufasa_sim::replay::Replay;
-use mufasa_sim::run::End;
+use mufasa_sim::run::{End, RunError};
+use serde::Deserialize;
 
+use super::merge::MergeArguments;
+use super::parts::{self, shard};
 use super::replay::{kind, variant};
 use super::report::{FailedRun, Leaves, Section};
 use super::text::{csv, json};
@@ -51,9 +59,13 @@ pub struct FalsifyArguments {
     /// Goes on for so long.
     #[arg(long, value_name = "M", conflicts_with = "runs", value_parser = whole(1_u32, 100_000), allow_negative_numbers = true)]
     pub minutes: Option<u32>,
-    /// Whole rounds, each of at most 376 runs.
+    /// Whole rounds, each of at most 376 runs: what can be made in parts.
     #[arg(long, value_name = "N", conflicts_with_all = ["runs", "minutes"], value_parser = whole(1_u64, 1_000_000), allow_negative_numbers = true)]
     pub rounds: Option<u64>,
+    /// Only one of N parts of the rounds, such as 2/8, for other machines to make the others; `mufasa merge` puts
+    /// the parts together.
+    #[arg(long, value_name = "I/N", value_parser = shard, requires_all = ["out", "rounds"])]
+    pub shard: Option<Shard>,
     /// What is checked of remote data.
     #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
     pub profile: Variant,
@@ -107,8 +119,34 @@ impl Caller for Bar<'_> {
 
 /// Searches until `stop` is set at the latest, writes the table to `out`, and files. The exit code.
 pub fn run(arguments: &FalsifyArguments, stop: &AtomicBool, out: &mut impl Write) -> Ended {
-    let (town, made) = search(arguments, stop)?;
+    if let Some(shard) = arguments.shard {
+        let (_, options, made) = search(arguments, stop, |town, options, caller| {
+            let rounds = part(town, options, shard, caller)?;
+            Ok((rounds, caller.is_interrupted()))
+        })?;
+        return write_part(arguments, options, shard, &made, out);
+    }
+    let (town, _, made) =
+        search(arguments, stop, |town, options, caller| experiment(town, options.clone(), caller))?;
     ended(&town, &made, arguments.out.as_deref(), out)
+}
+
+/// Puts parts together: what comes out is, byte for byte, what one run of all rounds would write. What was found is
+/// shrunk here, as one run shrinks what no round before it had found. Its exit code.
+pub(super) fn merge(arguments: &MergeArguments, out: &mut impl Write) -> Ended {
+    let folder = arguments.out.as_deref();
+    let whole: Part<Options> = parts::read(&arguments.parts)?;
+    prepared(folder, FOUND)?;
+    let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
+    let mut made = Falsified::nothing(whole.options);
+    for number in 0..made.options.rounds.unwrap_or(0) {
+        let id = id(number);
+        let round = whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
+        let round = Round::deserialize(round)
+            .map_err(|error| format!("{id}: {error}; write the part anew"))?;
+        made.add(&town, round, &()).map_err(said)?;
+    }
+    ended(&town, &made, folder, out)
 }
 
 /// Writes the table, the collisions and the files. The exit code.
@@ -151,8 +189,12 @@ fn ended(town: &Town, made: &Falsified, folder: Option<&Path>, out: &mut impl Wr
     Ok(if is_hardened && !made.found.is_empty() { FAILED } else { 0 })
 }
 
-/// What the search makes in a pool of threads, with its map.
-fn search(arguments: &FalsifyArguments, stop: &AtomicBool) -> Result<(Town, Falsified), String> {
+/// What the search makes in a pool of threads, with its map and its options.
+fn search<M: Send>(
+    arguments: &FalsifyArguments,
+    stop: &AtomicBool,
+    make: impl FnOnce(&Town, &Options, &Bar<'_>) -> Result<M, RunError> + Send,
+) -> Result<(Town, Options, M), String> {
     let &FalsifyArguments { profile, vehicles, seed, minutes, rounds, .. } = arguments;
     prepared(arguments.out.as_deref(), FOUND)?;
     let town = maps::of(arguments.map.as_deref())?;
@@ -170,9 +212,39 @@ fn search(arguments: &FalsifyArguments, stop: &AtomicBool) -> Result<(Town, Fals
     bar.set_prefix(NAME);
     let until = minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
     let caller = Bar { shown: bar, until, stop };
-    let made = pool(arguments.threads)?.install(|| experiment(&town, options, &caller));
+    let made = pool(arguments.threads)?.install(|| make(&town, &options, &caller)).map_err(said);
     caller.shown.finish_and_clear();
-    Ok((town, made.map_err(said)?))
+    Ok((town, options, made?))
+}
+
+/// The name of a round in a part.
+fn id(round: u64) -> String {
+    format!("{NAME}/{round}")
+}
+
+fn write_part(
+    arguments: &FalsifyArguments,
+    options: Options,
+    shard: Shard,
+    (rounds, interrupted): &(BTreeMap<u64, Round>, bool),
+    out: &mut impl Write,
+) -> Ended {
+    let value = |(number, round): (&u64, &Round)| Ok((id(*number), serde_json::to_value(round)?));
+    let runs = rounds.iter().map(value).collect::<Result<_, serde_json::Error>>();
+    let (experiment, runs) = (NAME.to_owned(), runs.map_err(said)?);
+    let (interrupted, checks) = (*interrupted, Checks::default());
+    let version = parts::version();
+    let part = Part { version, experiment, options, shard, interrupted, runs, checks };
+    let folder = arguments.out.as_deref().unwrap_or(Path::new("."));
+    let code = parts::write(folder, &part, "rounds", out)?;
+    if !interrupted || code != 0 {
+        return Ok(code);
+    }
+    writeln!(
+        out,
+        "INTERRUPTED: what was found until then is there, and merge refuses it as a part"
+    )?;
+    Ok(INTERRUPTED)
 }
 
 /// What a search leaves; with `draws` the files of a folder, too.

@@ -1,5 +1,6 @@
 //! The same for build servers: JUnit and SARIF.
 
+use mufasa_conform::xml_text;
 use serde_json::{Value, json};
 
 use super::evidence::{Case, Evidence, Outcome, Status};
@@ -73,33 +74,4 @@ pub(super) fn sarif(evidence: &Evidence) -> Value {
         "version": "2.1.0",
         "runs": [{"tool": {"driver": tool}, "results": results.collect::<Vec<_>>()}],
     })
-}
-
-/// Text for XML: markup escaped, characters that XML cannot hold replaced.
-fn xml_text(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' => out.push_str("&#10;"),
-            '\u{9}' | '\u{d}' | '\u{20}'..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'.. => {
-                out.push(c);
-            }
-            _ => out.push('\u{fffd}'),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn text_is_xml_text() {
-        assert_eq!(xml_text("a<b & \"c\"\u{0}\n"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&#10;");
-    }
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use mufasa_conform::NotShrunk;
 
-use crate::{MUFASA, Run, always_safe, folder, text};
+use crate::{MUFASA, Run, always_safe, folder, mufasa, text};
 
 /// A campaign on its way, in a group of its own.
 fn started(out: &Path, options: &str, script: &str) -> Child {
@@ -63,7 +63,7 @@ fn an_interrupted_campaign_says_what_the_vectors_found() {
     reached(&among_cases, &mut running);
     let run = interrupted(running, &out);
     let (told, known) = (&run.told, run.summary());
-    assert!(known.interrupted && known.asked >= 9, "{told}");
+    assert!(known.interrupted && !known.is_complete() && known.asked >= 9, "{told}");
     assert_eq!(known.vectors, known.campaign.vectors, "{told}");
     let wrong = known.wrong_vectors();
     assert!(!wrong.is_empty() && wrong.iter().all(|id| id.starts_with("collision")), "{told}");
@@ -72,11 +72,18 @@ fn an_interrupted_campaign_says_what_the_vectors_found() {
     let (count, why) = (known.classes.len(), Some(NotShrunk::Interrupted));
     assert!(known.classes.iter().all(|found| found.why == why), "{told}");
     let why = format!("\n{count} of {count} classes not shrunk: it was interrupted\n");
-    assert!(told.contains(&why) && !told.contains("--shrinking"), "{told}");
+    let (code, merged) = mufasa("conform merge", &[out.join("summary.json")]);
+    let says = merged.contains("INCOMPLETE: a shard was interrupted");
+    assert!(code == Some(1) && says, "{merged}");
+    for told in [told, &merged] {
+        assert!(told.contains(&why) && !told.contains("--shrinking"), "{told}");
+    }
     let words = format!("vectors asked: {} DISAGREE: collision", wrong.len());
     assert!(told.contains(&words), "{told}");
     assert!(told.contains(" cases asked, INTERRUPTED: no disagreement so far"), "{told}");
     assert_eq!(run.file("reproducers.jsonl").lines().count(), count, "{told}");
+    let junit = run.file("junit.xml");
+    assert!(junit.contains("interrupted after") && junit.contains("<failure"), "{junit}");
 }
 
 /// Standard output ends with the first class that is found: what is known is in the files all the same.
@@ -88,5 +95,5 @@ fn a_campaign_whose_reader_goes_away_leaves_what_is_known() {
     let run = ended(running, &out);
     assert_eq!(run.code, Some(141), "{}", run.told);
     let known = run.summary();
-    assert!(known.interrupted && known.vectors > 0, "{}", run.told);
+    assert!(known.interrupted && !known.is_complete() && known.vectors > 0, "{}", run.told);
 }

@@ -2,6 +2,7 @@
 //! way that `spec/5-interfaces.md#programs-under-test` names: shell scripts of a few lines.
 #![cfg(unix)]
 
+mod batch;
 mod broken;
 mod campaign;
 mod interrupted;
@@ -90,8 +91,7 @@ impl Run {
 }
 
 fn summary(folder: &Path) -> Summary {
-    let text = fs::read_to_string(folder.join("summary.json")).expect("it is there");
-    serde_json::from_str(&text).expect("a summary")
+    Summary::read(&folder.join("summary.json")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Judges a script, the vectors first, in the folder of a test.
@@ -117,7 +117,7 @@ fn cases(test: &str, options: &str, script: &str) -> Run {
     with_vectors(test, &format!("{options} --no-vectors"), script)
 }
 
-/// Cases alone for a script that is wrong: the exit code must be 1, and the records those of the summary.
+/// Cases alone for a script that is wrong: the exit code must be 1, and the three files must hold what the summary says.
 fn wrong(test: &str, options: &str, script: &str) -> (Summary, String) {
     let run = cases(test, options, script);
     assert_eq!(run.code, Some(1), "{}", run.told);
@@ -133,6 +133,10 @@ fn wrong(test: &str, options: &str, script: &str) -> (Summary, String) {
         summary.classes.iter().filter(|it| told.contains(&format!("DISAGREES  {},", it.class)));
     assert!((1..=3).contains(&shown.count()), "{told}");
     assert!(told.contains("\nmend first:\nDISAGREES  "), "{told}");
+    let junit = run.file("junit.xml");
+    let document = roxmltree::Document::parse(&junit).expect("XML");
+    let failures = document.descendants().filter(|node| node.has_tag_name("failure")).count();
+    assert_eq!(failures, summary.classes.len());
     (summary, run.told)
 }
 

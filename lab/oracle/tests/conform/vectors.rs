@@ -42,6 +42,7 @@ fn a_class_of_vectors_alone_is_a_disagreement() {
     assert!(told.contains("40 of 40 cases asked: the program conforms in all of them"), "{told}");
     let summary = run.summary();
     assert!(summary.wrong_vectors().iter().all(|id| id.starts_with("collision")), "{told}");
+    assert!(!run.file("junit.xml").contains("name=\"vectors ("));
     let run = with_vectors("vectors-none", "--kinds cycle --cases 40 --no-vectors", &script);
     assert_eq!(run.code, Some(0), "{}", run.told);
     assert!(!run.told.contains("vectors asked"), "{}", run.told);

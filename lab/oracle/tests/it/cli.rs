@@ -136,12 +136,13 @@ fn the_oracle_answers_standard_input() {
 }
 
 #[test]
-fn compositions_are_found() {
+fn compositions_are_found_and_drawn() {
     let folder = folder("compose");
     let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/fig2.json");
     said(&folder, &["compose", services]).has(0, "8 compositions", "");
     let example = write(&folder, "example.json", mufasa(&["compose", "--example"]).out);
     said(&folder, &["compose", &example]).has(0, "8 compositions", "");
+    assert!(mufasa(&["compose", services, "--dot"]).out.starts_with("digraph"));
 }
 
 /// In a checkout with git the commit, elsewhere the version alone.

@@ -1,4 +1,4 @@
-//! Compositions as a table; the example is the service set of the paper's Fig. 2.
+//! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
 
 use mufasa_oracle::compose::{Composed, EXAMPLE as FIG_2, composed};
 use mufasa_records::{Answer, answer};
@@ -23,6 +23,18 @@ fn of_services(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Compos
         "{{\"kind\": \"composition\", \"id\": \"s\", \"goal\": {goal:?}, \"services\": [{services}]}}"
     ))
     .expect("the services compose")
+}
+
+/// Its arrows are those of the figure: `model/tests/services/figure_2.rs`.
+#[test]
+fn the_graph_of_fig_2_has_every_service_and_knows_device_switches() {
+    let graph = fig_2().graph();
+    assert_eq!((graph.nodes.len(), graph.edges.len()), (13, 17));
+    assert_eq!(graph.nodes[0].id, "actuation");
+    for edge in &graph.edges {
+        let [from, to] = [edge.provider, edge.consumer].map(|node| graph.nodes[node].station);
+        assert_eq!(edge.switch, from != to);
+    }
 }
 
 /// The vectors say what the answer must be, `model/tests/services/figure_2.rs` why.
@@ -74,6 +86,55 @@ fn without_a_composition_the_table_says_why() {
     assert_eq!(nobody.table(), "no composition for top: nobody guarantees a, which top requires\n");
     let round = of_services("top", &[("top", &["a"], &["a"], 0)]);
     assert_eq!(round.table(), "no composition for top: the rule acyclic stands in the way\n");
+    assert_eq!(round.graph().edges.len(), 1);
+}
+
+/// Two compositions may need a service above and below another: the union has a cycle.
+#[test]
+fn compositions_that_form_a_cycle_together_can_be_drawn() {
+    let both = of_services(
+        "goal",
+        &[
+            ("goal", &["x", "y"], &[], 0),
+            ("a", &["u"], &["x", "v"], 0),
+            ("b", &["v"], &["y", "u"], 1),
+            ("sensor", &[], &["u", "v"], 0),
+        ],
+    );
+    assert!(both.answer().compositions.len() > 1);
+    let graph = both.graph();
+    let id = |node: usize| graph.nodes[node].id.as_str();
+    let has = |from: &str, to: &str| {
+        graph.edges.iter().any(|edge| (id(edge.provider), id(edge.consumer)) == (from, to))
+    };
+    assert!(has("a", "b") && has("b", "a"));
+    let dot = both.dot();
+    for (from, to, interface) in [("b", "a", "u"), ("a", "b", "v")] {
+        let place = |of| graph.nodes.iter().position(|node| node.id == of).expect("a node");
+        let link = format!("n{} -> n{} [label=\"{interface}\"", place(from), place(to));
+        assert!(dot.contains(&link), "{link}: {dot}");
+    }
+}
+
+#[test]
+fn names_that_graphviz_cannot_hold_are_escaped() {
+    let odd = of_services(
+        "<goal> & \"co\"",
+        &[("<goal> & \"co\"", &["a\\b"], &[], 0), ("tab\tand \u{e9}\u{1f697}", &[], &["a\\b"], 9)],
+    );
+    let dot = odd.dot();
+    assert!(dot.contains("label=\"tab\u{fffd}and \u{e9}\u{1f697}\""), "{dot}");
+    assert!(dot.contains(r#"label="<goal> & \"co\"""#), "{dot}");
+    assert!(dot.contains(r#"n1 -> n0 [label="a\\b", style=dashed];"#), "{dot}");
+}
+
+#[test]
+fn the_dot_file_has_every_service_and_every_link() {
+    let dot = fig_2().dot();
+    assert!(dot.starts_with("digraph services {\n  rankdir=BT;\n") && dot.ends_with("}\n"));
+    assert_eq!(dot.matches("fillcolor").count(), 13);
+    assert_eq!(dot.matches(" -> ").count(), 17);
+    assert_eq!(dot.matches("style=dashed").count(), 6);
 }
 
 #[test]
@@ -99,7 +160,7 @@ fn a_file_that_is_no_composition_is_an_error_with_its_line() {
 /// Layers of services, each of which requires something of all in the next: 400 of one, and 40 of
 /// two, through which there are 2^40 ways.
 #[test]
-fn long_chains_are_composed() {
+fn long_chains_can_be_drawn() {
     for (layers, width) in [(400, 1), (40, 2)] {
         let interfaces = |layer: usize| (0..width).map(move |at| format!("i{layer}-{at}"));
         let ids: Vec<Vec<String>> = (0..=layers).map(|layer| interfaces(layer).collect()).collect();
@@ -111,8 +172,9 @@ fn long_chains_are_composed() {
             let provides = ids[layer].iter().map(std::slice::from_ref);
             services.extend(provides.map(|id| (id[0], requires, id, 0)));
         }
-        let compositions = of_services("goal", &services).answer().compositions;
-        let links: Vec<_> = compositions.iter().map(|it| it.links.len()).collect();
-        assert_eq!(links, [width + (layers - 1) * width * width]);
+        let chain = of_services("goal", &services);
+        let links = width + (layers - 1) * width * width;
+        assert_eq!(chain.graph().edges.len(), links);
+        assert_eq!(chain.dot().matches(" -> ").count(), links);
     }
 }

@@ -34,14 +34,8 @@ fn interrupted(folder: &Path, signal: &str, more: &[&str]) -> String {
 
 #[test]
 fn an_interrupted_search_leaves_what_it_found() {
-    for signal in ["-INT", "-TERM"] {
-        is_left(signal);
-    }
-}
-
-fn is_left(signal: &str) {
-    let folder = folder(&format!("whole{signal}"));
-    let told = interrupted(&folder, signal, &["--minutes", "60", "--out", "left"]);
+    let folder = folder("whole");
+    let told = interrupted(&folder, "-INT", &["--minutes", "60", "--out", "left"]);
     assert!(told.contains(" empty-tracks "), "{told}");
     let text = |name: &str| fs::read_to_string(folder.join("left").join(name)).expect("written");
     let made: Value = serde_json::from_str(&text("falsify.json")).expect("JSON");
@@ -56,4 +50,19 @@ fn is_left(signal: &str) {
     assert_eq!(kept.len(), made["found"].as_array().expect("a list").len());
     let replay = ["evaluate", "replay", kept[0].to_str().expect("a name"), "--out", "page.html"];
     said(&folder, &replay).has(0, "Collided", "");
+}
+
+#[test]
+fn an_interrupted_part_holds_what_was_found_and_is_no_part() {
+    let folder = folder("part");
+    interrupted(&folder, "-TERM", &["--rounds", "100000", "--shard", "1/1", "--out", "left"]);
+    let file = "left/falsify.1-of-1.part.json";
+    let text = fs::read_to_string(folder.join(file)).expect("written");
+    let part: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(part["interrupted"], true);
+    let rounds = part["runs"].as_object().expect("rounds").values();
+    let found = rounds.map(|it| it["found"].as_array().expect("a list").len()).sum::<usize>();
+    assert!(found > 0, "{text}");
+    let why = format!("{file}: it was interrupted, and is no part");
+    said(&folder, &["merge", file]).has(2, "", &why);
 }

@@ -17,6 +17,7 @@ mod mistakes;
 mod prove;
 mod report;
 mod schemas;
+mod shards;
 mod speed;
 mod ulm;
 mod verify;

@@ -125,7 +125,9 @@ fn arguments_that_make_no_sense_are_refused_with_their_limits() {
         told.has(2, "", limits);
         assert!(told.out.is_empty(), "{arguments:?}");
     }
-    for arguments in [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"]] {
+    for arguments in
+        [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"], &["conform", "merge"]]
+    {
         let told = mufasa(arguments).err;
         assert!(!told.contains(behind), "{arguments:?}: {told}");
     }

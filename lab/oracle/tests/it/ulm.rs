@@ -22,6 +22,34 @@ fn on_map() -> Option<String> {
 }
 
 #[test]
+fn parts_are_of_one_map_and_make_the_whole() {
+    let Some(map) = on_map() else { return };
+    let folder = folder("parts");
+    let evaluate = |more: &[&str]| {
+        said(&folder, &[&["evaluate"], &SIZE[..], more].concat(), 0);
+    };
+    evaluate(&["--map", &map, "--out", "whole"]);
+    evaluate(&["--map", &map, "--out", "parts", "--shard", "1/2"]);
+    evaluate(&["--map", &map, "--out", "parts", "--shard", "2/2"]);
+    evaluate(&["--out", "town", "--shard", "2/2"]);
+    let part = |place: &str, index| format!("{place}/failures.{index}-of-2.part.json");
+    let (one, two, town) = (part("parts", 1), part("parts", 2), part("town", 2));
+    said(&folder, &["merge", &one, &two, "--map", &map, "--out", "merged"], 0);
+    for name in ["failures.json", "failures-runs.csv", "report.html"] {
+        let file = |place: &str| fs::read(folder.join(place).join(name)).expect("a file");
+        assert!(file("whole") == file("merged"), "{name}");
+    }
+    let text = fs::read_to_string(folder.join("whole/failures.json")).expect("it is there");
+    let made: Value = serde_json::from_str(&text).expect("JSON");
+    let id = made["options"]["map"].as_str().expect("a map");
+    assert!(id.starts_with("ulm-lehr-"), "{id}");
+    let without = said(&folder, &["merge", &one, &two], 2);
+    assert!(without.contains(id) && without.contains("by --map"), "{without}");
+    let mixed = said(&folder, &["merge", &one, &town, "--map", &map], 2);
+    assert!(mixed.contains("map: Lehr(") && mixed.contains("map: Town"), "{mixed}");
+}
+
+#[test]
 fn a_run_is_drawn_by_its_id_and_its_map() {
     let Some(map) = on_map() else { return };
     let folder = folder("replay");

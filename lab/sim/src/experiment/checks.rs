@@ -6,13 +6,13 @@ use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Reading;
 use mufasa_props::bridge::{invalid_input_from_impl, report_from_impl};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::cav::decided::Decided;
 
 /// How many cycles were checked, and where the monitor did not decide as the model allows
 /// (`spec/4-arithmetic.md#conformance-of-an-implementation`).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Checks {
     /// Cycles that the monitor decided.
     pub decided: u64,
@@ -23,7 +23,7 @@ pub struct Checks {
 }
 
 /// A cycle that was decided otherwise.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 pub struct Disagreement {
     /// The run.
     pub id: String,

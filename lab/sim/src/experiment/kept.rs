@@ -1,7 +1,7 @@
 //! What is kept of each run of an experiment.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::axes::{Axes, Detectors, Factor, LeftOut, Offered};
 use super::job::Job;
@@ -16,7 +16,7 @@ use crate::run::{End, Outcome};
 const AFTER: f64 = 3.0;
 
 /// A run. What is special about it is empty where the experiment does not have it.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,

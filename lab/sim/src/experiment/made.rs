@@ -3,13 +3,14 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
+use thiserror::Error;
 
 use super::axes::FROM;
 use super::checks::Checks;
 use super::job::Job;
 use super::kept::{Run, is_same_case};
 use super::row::Row;
-use super::select::{Options, Select};
+use super::select::{NotKept, Options, Select};
 use super::watch::Watch;
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
@@ -45,6 +46,16 @@ pub struct Made {
     pub runs: Vec<Run>,
 }
 
+/// Why an experiment could not be made.
+#[derive(Debug, Error)]
+#[error(transparent)]
+pub enum ExperimentError {
+    /// Settings, a route or a town that cannot be.
+    Run(#[from] RunError),
+    /// A run that was made before is not there.
+    NotKept(#[from] NotKept),
+}
+
 /// An experiment that is to be made.
 pub struct Campaign<'a> {
     /// On which map.
@@ -73,17 +84,22 @@ impl Experiment {
 
     /// Makes its runs, or those of them that are selected, on the threads of this pool.
     ///
-    /// Errors: settings, a route or a town that cannot be.
-    pub fn make(&self, campaign: &Campaign<'_>) -> Result<Made, RunError> {
+    /// Errors: settings, a route or a town that cannot be; a run that should be kept is not.
+    pub fn make(&self, campaign: &Campaign<'_>) -> Result<Made, ExperimentError> {
         let &Campaign { town, options, select, done } = campaign;
-        let chosen = self.jobs(town, options).into_iter().filter(|job| select.has(&job.id));
-        let jobs: Vec<Job> = chosen.map(|job| recorded(job, select)).collect();
+        let jobs = self.jobs(town, options).into_iter().enumerate();
+        let chosen = jobs.filter(|(at, job)| select.has(*at, &job.id));
+        let jobs: Vec<Job> = chosen.map(|(_, job)| recorded(job, select)).collect();
         let one = |job: &Job| {
+            if let Some(made) = select.made(&job.id)? {
+                return Ok(made);
+            }
             let run = run(job, town, select)?;
             done(jobs.len());
+            select.keep(&job.id, &run)?;
             Ok(run)
         };
-        let runs = jobs.par_iter().map(one).collect::<Result<Vec<Run>, RunError>>()?;
+        let runs = jobs.par_iter().map(one).collect::<Result<Vec<Run>, ExperimentError>>()?;
         let rows = runs.chunk_by(self.same);
         let rows = match self.by_stage {
             None => rows.map(Row::of).collect(),

@@ -6,7 +6,8 @@
 //! attacks is shrunk (`shrink`) and kept so that it can be made again (`found`).
 //!
 //! A number of runs and a seed give the same with any number of threads: points are drawn before their runs
-//! are made, and runs are looked at in their order. Rounds do not know of each other (`rounds`).
+//! are made, and runs are looked at in their order. Rounds do not know of each other (`rounds`): other machines can
+//! make some of them.
 
 pub mod caller;
 pub mod cma;
@@ -25,10 +26,10 @@ use self::cma::{Cma, anywhere};
 use self::danger::Danger;
 use self::found::{Case, Found};
 use self::genome::{Clean, GENES, decode};
-use self::rounds::Round;
 use self::rounds::explains;
-pub use self::rounds::{Falsified, Options, Row, Try};
+pub use self::rounds::{Falsified, Options, Round, Row, Try};
 use super::axes::Offered;
+use super::select::Shard;
 use crate::attack::Kind;
 use crate::map::Town;
 use crate::run::RunError;
@@ -64,6 +65,23 @@ pub fn experiment(
     }
     made.interrupted = caller.is_interrupted();
     Ok(made)
+}
+
+/// The rounds of a part of so many rounds, each with its number from 0, for other machines to make the others. Those
+/// up to an interrupt, the last one perhaps in part.
+///
+/// Errors: a town that cannot be.
+pub fn part(
+    town: &Town,
+    options: &Options,
+    shard: Shard,
+    caller: &impl Caller,
+) -> Result<BTreeMap<u64, Round>, RunError> {
+    let nothing = Falsified::nothing(options.clone());
+    let numbers = 0..options.rounds.unwrap_or(0);
+    let mine = numbers.filter(|it| shard.has(usize::try_from(*it).unwrap_or(usize::MAX)));
+    let one = |number| Ok((number, Search::new(town, &nothing, number, caller).round()?));
+    mine.take_while(|_| !caller.is_interrupted()).map(one).collect()
 }
 
 /// A scenario in which attacks are tried.

@@ -63,7 +63,7 @@ pub struct Falsified {
 }
 
 /// Runs with one kind of attack, alone or with another.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Row {
     /// The kind; none: without attacks.
     pub attack: Option<Kind>,
@@ -80,7 +80,7 @@ pub struct Row {
 }
 
 /// A run with attacks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Try {
     /// Its round, from 0.
     pub round: u64,
@@ -91,7 +91,8 @@ pub struct Try {
 }
 
 /// What came of a round. It depends on its number and the options, and on no other round.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Round {
     /// Runs with attacks.
     pub runs: u64,
@@ -140,12 +141,7 @@ impl Falsified {
     /// that no kept one explains ([`explains`]).
     ///
     /// Errors: those of a run.
-    pub(super) fn add(
-        &mut self,
-        town: &Town,
-        round: Round,
-        caller: &impl Caller,
-    ) -> Result<(), RunError> {
+    pub fn add(&mut self, town: &Town, round: Round, caller: &impl Caller) -> Result<(), RunError> {
         let Round { runs, collided, collided_at_random, clean_collided, rows, tries, found } =
             round;
         self.rounds += 1;
