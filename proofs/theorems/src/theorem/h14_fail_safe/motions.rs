@@ -30,7 +30,7 @@ pub const THEOREMS: &[Theorem] = &[
                     nearest to 500 ms of those that hold one, and d did not stand or moved evenly from d', \
                     (d, d') is examined as moving",
         domain: "all positions, velocities of the track along x and y, theta_track_max, theta_velocity, v_object \
-                 > 0; one track, two detections, two items of 500 ms ago, one of 300 ms ago",
+                 > 0; one track, one detection, two items of 500 ms ago, one of 300 ms ago",
         claim: || of_track(0),
         wrong: Wrong { statement: "and so is (d, d'') for every item d''", claim: || of_track(1) },
     },
@@ -190,14 +190,14 @@ fn disputed(by_another: bool) -> Formula {
 }
 
 fn of_track(all: usize) -> Formula {
-    let scene = scene(vec![says()], &["c", "d"]);
+    let scene = scene(vec![says()], &["d"]);
     let confirmed = confirmed(&scene);
     let Some((_, seen)) = confirmed.first() else { return Formula::Known(true) };
     // Two lists: a backed track has its own origin in both.
     let (Some(d), Some(origin)) = (seen.detection, seen.own_origins[1]) else {
         return Formula::Known(false);
     };
-    given_not_stood(["c", "d"][d], ["a", "b"][origin]);
+    given_not_stood("d", ["a", "b"][origin]);
     let examined = |item: usize| is_examined(&scene, [d, item]);
     Formula::from(examined(origin) && (all == 0 || (0..2).all(examined)))
 }
