@@ -10,7 +10,7 @@ use mufasa_theorems::prove::judge;
 use mufasa_theorems::theorem;
 use rayon::prelude::*;
 
-/// They take longer than all others together. `mufasa prove` proves them, at night.
+/// They take minutes. `mufasa prove` proves them, at night.
 const LONG: [&str; 2] = [
     "the_motion_of_a_confirmed_track_is_examined_whatever_the_track_says",
     "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
