@@ -43,7 +43,8 @@ impl<'c, 'a> Path<'c, 'a> {
         let &Ego { x, y, cos, sin, .. } = &cycle.ego;
         let s_stop = self.times.s_stop;
         let (h, longest) = (vector([cos, sin]), longest(s_stop));
-        let farthest = s_stop + Real::new(larger(1.0, cycle.parameters.lateral_tolerance));
+        let beside = Real::new(larger(1.0, cycle.parameters.lateral_tolerance));
+        let farthest = (s_stop + beside).squared();
         Pieces { start, ends: Ends { p: [x, y], h, s_stop, farthest, longest }, d: self.nodes.d }
     }
 }
@@ -66,6 +67,7 @@ struct Ends {
     p: [f64; 2],
     h: Vector,
     s_stop: Real,
+    /// Its square, m^2.
     farthest: Real,
     longest: Real,
 }
@@ -173,7 +175,7 @@ impl Iterator for Pieces<'_> {
                 piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
             piece.end = Some(share);
         }
-        let beyond = piece.first_beyond(self.ends, to.is_none());
+        let beyond = piece.first_beyond(self.ends, to.map(|(to, _)| [to.x, to.y]));
         if beyond < piece.places || piece.end.is_none() && to.is_none() {
             piece.places = beyond.saturating_add(1);
             (piece.end, piece.is_over) = (None, true);
@@ -231,18 +233,29 @@ impl Piece {
     /// The first place that certainly has a greater length than the longest or is farther from p than the farthest; none
     /// of a piece with an end is beyond n (H-14.60). Of places in a line the squared distance is convex, and no more than
     /// that of the node or of the end of the piece.
-    fn first_beyond(&self, Ends { p, farthest, longest, .. }: Ends, is_endless: bool) -> i64 {
-        let limit = farthest.squared();
+    fn first_beyond(
+        &self,
+        Ends { p, farthest: limit, longest, .. }: Ends,
+        to: Option<[f64; 2]>,
+    ) -> i64 {
+        let is_endless = to.is_none();
+        // Plain doubles err by less than 1e-15 of these squares.
+        let near = limit.value() * (1.0 - 1e-9);
+        let is_near = |at: [f64; 2]| {
+            let (x, y) = (at[0] - p[0], at[1] - p[1]);
+            x * x + y * y <= near
+        };
+        let is_clear = to.is_some_and(|to| is_near(self.node.at) && is_near(to));
         let from_p = Vector::between(p, self.node.at);
         let is_far = |k: i64| {
             let away = from_p + self.u.times(share(k, self.n));
             limit.certainly_below(away.dot(away))
         };
         let mut beyond = if is_endless { i64::MAX } else { self.n };
-        if is_far(0) {
+        if !is_clear && is_far(0) {
             return 0;
         }
-        if is_endless || is_far(self.n) {
+        if is_endless || !is_clear && is_far(self.n) {
             let (along, squared) = (from_p.dot(self.u), self.u.dot(self.u));
             let left = along.squared() + squared * (limit - from_p.dot(from_p));
             let share = (left.max(Real::ZERO).sqrt() - along).over(squared);
