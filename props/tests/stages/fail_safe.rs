@@ -6,6 +6,7 @@ use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::differential::{agree, conforming, hold, near_threshold, same_witness};
+use mufasa_props::strategy::base::Frame;
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation::{detection, track};
 use mufasa_props::strategy::{base, fail_safe, seen};
@@ -83,13 +84,8 @@ fn beside_a_path_that_may_have_thousands_of_places() {
 /// asks each of them twice, and looks through a list of 1500 items each time.
 #[test]
 fn an_origin_that_many_may_come_from() {
-    let draw = &mut Draw::new(&[]);
-    let frame = base::frame(draw);
-    let mut cycle = base::cycle(draw, frame, Profile::HARDENED, Configuration::PlanRemote);
-    let list = |ms: i64, places: Vec<(f64, f64)>| DetectionList {
-        stamp_ns: cycle.now_ns - ms * 1_000_000,
-        items: places.into_iter().map(|place| detection(frame, place)).collect(),
-    };
+    let (frame, mut cycle) = planned();
+    let list = lists(frame, cycle.now_ns);
     let behind = (0..20).map(|k| (-10.0 + 0.1 * f64::from(k), 0.0));
     let seen = list(0, [(-30.0, 0.0)].into_iter().chain(behind).collect());
     let elsewhere = std::iter::repeat_n((-100.0, 50.0), 1499);
@@ -106,13 +102,8 @@ fn an_origin_that_many_may_come_from() {
 /// implementation asks each of them twice.
 #[test]
 fn items_that_are_not_taken() {
-    let draw = &mut Draw::new(&[]);
-    let frame = base::frame(draw);
-    let mut cycle = base::cycle(draw, frame, Profile::HARDENED, Configuration::PlanRemote);
-    let list = |ms: i64, places: Vec<(f64, f64)>| DetectionList {
-        stamp_ns: cycle.now_ns - ms * 1_000_000,
-        items: places.into_iter().map(|place| detection(frame, place)).collect(),
-    };
+    let (frame, mut cycle) = planned();
+    let list = lists(frame, cycle.now_ns);
     let person = (10.0, -20.0);
     let near = (0..20).map(|k| (10.0, -19.0 + 0.01 * f64::from(k)));
     let of_500_ms = list(500, std::iter::once(person).chain(near).collect());
@@ -120,6 +111,21 @@ fn items_that_are_not_taken() {
     cycle.detections = Some(list(0, vec![person]));
     cycle.tracks = Some(TrackList { stamp_ns: cycle.now_ns, items: vec![track(frame, person, 1)] });
     assert_bears(cycle);
+}
+
+/// A cycle of `PlanRemote`, and where it is.
+fn planned() -> (Frame, Cycle) {
+    let draw = &mut Draw::new(&[]);
+    let frame = base::frame(draw);
+    (frame, base::cycle(draw, frame, Profile::HARDENED, Configuration::PlanRemote))
+}
+
+/// Detections at these places so many ms ago.
+fn lists(frame: Frame, now_ns: i64) -> impl Fn(i64, Vec<(f64, f64)>) -> DetectionList {
+    move |ms, places| DetectionList {
+        stamp_ns: now_ns - ms * 1_000_000,
+        items: places.into_iter().map(|place| detection(frame, place)).collect(),
+    }
 }
 
 /// With the least limit that the strict model bears the implementation conforms, and both find the cycle safe.
