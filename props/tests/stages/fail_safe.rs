@@ -99,13 +99,13 @@ fn an_origin_that_many_may_come_from() {
 }
 
 /// H-14.51, H-14.63: a person stood, and twenty items of 500 ms ago are near, from none of which the person comes. An
-/// implementation asks each of them twice.
+/// implementation asks twice of each, since from there the person would come to where the CAV drives.
 #[test]
 fn items_that_are_not_taken() {
     let (frame, mut cycle) = planned();
     let list = lists(frame, cycle.now_ns);
-    let person = (10.0, -20.0);
-    let near = (0..20).map(|k| (10.0, -19.0 + 0.01 * f64::from(k)));
+    let person = (4.0, -5.0);
+    let near = (0..20).map(|k| (4.0, -6.5 + 0.001 * f64::from(k)));
     let of_500_ms = list(500, std::iter::once(person).chain(near).collect());
     cycle.detection_history = vec![list(250, vec![person]), of_500_ms];
     cycle.detections = Some(list(0, vec![person]));
