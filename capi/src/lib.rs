@@ -1,7 +1,8 @@
-//! C interface of MUFASA's implementation: `mufasa::cycle::check` and `mufasa::offloading::requester`.
+//! C interface of MUFASA's implementation: the monitor, and beneath it `mufasa::cycle::check` and
+//! `mufasa::offloading::requester`.
 //!
-//! All memory is the caller's: nothing is allocated, and nothing is kept between two calls but the
-//! requester in the memory that it was given. Numbers that stand for a choice (profile,
+//! All memory is the caller's: nothing is allocated, and nothing is kept between two calls except
+//! monitor, requester and indexes, in the memory that they were given. Numbers that stand for a choice (profile,
 //! configuration, group, type of an event) are checked, so any bit pattern may come in. Pointers
 //! are checked for null and alignment; that they point to what they say, the caller warrants.
 //!

@@ -75,11 +75,13 @@ fn what_one_rule_turns_down_is_safe_without_it_and_unsafe_without_another() {
     }
 }
 
+/// CONF-02: the paper profile is one without.
 #[test]
 fn without_h_08_local_services_stop_at_the_confirmation() {
-    for rule in HardenedRule::ALL {
+    let one_less =
+        HardenedRule::ALL.map(|it| (Profile::HARDENED.without(it), it == HardenedRule::H08));
+    for (profile, stops) in one_less.into_iter().chain([(Profile::PAPER, true)]) {
         let mut table = [StationRecord::FREE; 1];
-        let profile = Profile::HARDENED.without(rule);
         let requester = Requester::new(profile, Parameters::default(), &mut table);
         let mut requester = requester.expect("the defaults");
         let mut actions = Vec::new();
@@ -92,6 +94,6 @@ fn without_h_08_local_services_stop_at_the_confirmation() {
             assert!(requester.is_valid());
         }
         let stopped = actions.contains(&Action::Deactivate(Group::Plan));
-        assert_eq!(stopped, rule == HardenedRule::H08);
+        assert_eq!(stopped, stops, "{profile:?}");
     }
 }

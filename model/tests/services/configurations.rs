@@ -141,34 +141,3 @@ fn the_source_is_the_local_services_while_they_compute_else_the_remote_station()
         assert!(!local_computes);
     }
 }
-
-/// CONF-02
-#[test]
-fn local_services_stop_at_the_confirmation_in_the_paper_profile() {
-    let mut requester = requested(Profile::PAPER);
-    let actions = requester.step(&Event { t_ns: 1, kind: CONFIRM });
-    assert_eq!(actions, [Action::Deactivate(Group::Mot)]);
-    requester.step(&Event { t_ns: 2, kind: DATA });
-    assert_eq!(requester.step(&Event { t_ns: 3, kind: SAFE }), []);
-}
-
-/// CONF-03 (H-08)
-#[test]
-fn local_services_stop_at_the_first_safe_verdict_after_a_used_result_in_the_hardened_profile() {
-    let mut requester = requested(Profile::HARDENED);
-    assert_eq!(requester.step(&Event { t_ns: 1, kind: CONFIRM }), []);
-    assert_eq!(requester.step(&Event { t_ns: 1, kind: SAFE }), [], "no result yet");
-    assert_eq!(requester.step(&Event { t_ns: 2, kind: DATA }), []);
-    let other = EventKind::Verdict { safe: true, sessions: Sessions { mot: None, plan: Some(1) } };
-    assert_eq!(requester.step(&Event { t_ns: 3, kind: other }), [], "MOT is not named");
-    for session in [0, 2] {
-        let other = EventKind::Verdict {
-            safe: true,
-            sessions: Sessions { mot: Some(session), plan: None },
-        };
-        assert_eq!(requester.step(&Event { t_ns: 3, kind: other }), [], "another session");
-    }
-    let stop = [Action::Deactivate(Group::Mot)];
-    assert_eq!(requester.step(&Event { t_ns: 4, kind: SAFE }), stop);
-    assert_eq!(requester.step(&Event { t_ns: 5, kind: SAFE }), [], "only the first");
-}

@@ -65,8 +65,6 @@ impl Habit {
 /// What came of it for a group.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Share {
-    /// Cycles with something of the station.
-    pub with: i64,
     /// For how long it was the station's to give and nothing came, from the last cycle with something, or the
     /// confirmation: to the session's end; in gaps that ended before they were longer than dt_max; in longer ones.
     pub at_end_ns: i64,
@@ -127,7 +125,6 @@ impl Share {
                 self.longest_gap_ns = self.longest_gap_ns.max(since_ns);
             }
             (self.is_gap, self.is_long, self.last_ns) = (false, false, now_ns);
-            self.with += 1;
         } else if self.running.is_some() {
             self.is_gap = true;
             self.is_long |= since_ns > settings().requester.dt_max_ns;

@@ -7,12 +7,12 @@ use mufasa::input::cycle::{CrossSection, Cycle, Ego, Grid, Trajectory, Trajector
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Decision, GridMap, Inputs, Monitor, MonitorError, Settings};
+use mufasa::offloading::requester::Groups;
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration;
 use mufasa_props::lent::Lent;
 
-use super::early::asked;
-use super::kit::{MS, World, at, road, route};
+use super::kit::{MS, Station, World, at, road, route};
 
 /// With steps of 1 ns.
 fn within(steps: u64) -> Settings {
@@ -187,6 +187,14 @@ fn a_cycle_that_may_be_late_is_a_cycle_all_the_same() {
         assert_eq!(found.field, field);
         assert_eq!(asked(&mut monitor, 600 * MS), requests, "{field}");
     }
+}
+
+/// How many requests a tick sends.
+fn asked(monitor: &mut Monitor<'_>, now_ns: i64) -> usize {
+    let mut station = Station::default();
+    station.take(&monitor.offer(at(now_ns), 1, Groups::ALL).expect("a station"));
+    station.take(&monitor.tick(at(now_ns)));
+    station.asked.len()
 }
 
 const LATE: InvalidInput = InvalidInput { field: "cells", index: None, problem: Problem::TooMany };

@@ -5,11 +5,7 @@
 #![allow(clippy::large_types_passed_by_value, reason = "settings, once for each monitor")]
 
 mod advice;
-mod again;
-mod blind;
 mod brake_by;
-mod dropped;
-mod early;
 mod game;
 mod habits;
 mod in_time;
@@ -19,7 +15,6 @@ mod misuse;
 mod model;
 mod own_plan;
 mod reached;
-mod restart;
 mod stack;
 mod starved;
 mod unusual;

@@ -58,7 +58,7 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     }
 }
 
-/// PROTO-08 (H-08)
+/// CONF-03, PROTO-08 (H-08)
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
     let mut cav = Cav::remote(Profile::HARDENED, MOT);
@@ -77,4 +77,5 @@ fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_
     cav.at(6, data(1, Mot, 2, 6));
     assert_eq!(cav.at(6, safe(Some(1), None)), [], "a verdict on an earlier session (F-25)");
     assert_eq!(cav.at(6, safe(Some(2), None)), [Deactivate(Mot)]);
+    assert_eq!(cav.at(7, safe(Some(2), None)), [], "only the first");
 }

@@ -1,7 +1,6 @@
 //! What no vector of `spec/2-offloading.md` shows (`props/tests/vectors.rs`), of the requesters of model and
 //! implementation together: after each step everything that either remembers is compared.
 
-mod deadlines;
 mod fallback;
 mod provider;
 mod quality_of_service;
@@ -27,11 +26,6 @@ struct Cav(Pair);
 impl Cav {
     fn new(profile: Profile, parameters: Parameters) -> Self {
         Self(Pair::new(profile, parameters).unwrap_or_else(|difference| panic!("{difference}")))
-    }
-
-    /// Paper profile, default parameters.
-    fn paper() -> Self {
-        Self::new(Profile::PAPER, Parameters::default())
     }
 
     /// With these groups requested from station 1 at 0 ns, sessions from 1 on.
@@ -68,13 +62,6 @@ impl Cav {
     fn model(&self) -> &Requester {
         self.0.model()
     }
-
-    /// Asserts that the event does nothing and changes nothing.
-    fn ignores(&mut self, t_ns: i64, kind: EventKind) {
-        let before = self.model().clone();
-        assert_eq!(self.at(t_ns, kind), []);
-        assert_eq!(*self.model(), before);
-    }
 }
 
 fn offer(station: i64, groups: Groups) -> EventKind {
@@ -91,10 +78,6 @@ fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKin
 
 fn safe(mot: Option<i64>, plan: Option<i64>) -> EventKind {
     EventKind::Verdict { safe: true, sessions: Sessions { mot, plan } }
-}
-
-fn release(station: i64, group: Group, session: i64) -> Action {
-    Action::Release { station, group, session }
 }
 
 fn on(station: i64, session: i64) -> GroupState {

@@ -1,6 +1,6 @@
 //! `embedded-host write FOLDER [smoke]` writes the cases; `embedded-host read FOLDER [smoke] TARGET...` compares the
-//! answers of each target, in `FOLDER/TARGET`, with those of this machine, and these with the model's, prints the
-//! tables and writes `FOLDER/embedded.json`.
+//! answers of each target, in `FOLDER/TARGET`, with those of this machine, and these with the model's, and prints the
+//! tables.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -17,7 +17,6 @@ use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Reading;
 use mufasa_props::bridge;
 use mufasa_records::Record;
-use serde_json::json;
 use serde_json::value::RawValue;
 
 type Failure = Box<dyn Error>;
@@ -52,8 +51,7 @@ fn main() -> Result<(), Failure> {
     let found = targets.iter().map(|target| Found::new(&folder.join(target), target, &expected));
     let found = found.collect::<Result<Vec<_>, _>>()?;
     print(&found, vectors.len());
-    let all: BTreeMap<_, _> = found.iter().map(|it| (&it.target, it.json())).collect();
-    Ok(fs::write(folder.join("embedded.json"), serde_json::to_string_pretty(&all)? + "\n")?)
+    Ok(())
 }
 
 /// Calls a job with each case and its name; that of a vector is empty.
@@ -150,19 +148,6 @@ impl Found {
             }
         }
         Ok(Self { target: target.to_owned(), code, first, cases, stack_of_vectors })
-    }
-
-    fn json(&self) -> serde_json::Value {
-        let names = ["instructions", "stack", "scratch"];
-        let case = |(name, numbers): &(String, [u64; 3])| {
-            (name.clone(), names.into_iter().zip(*numbers).collect::<BTreeMap<_, _>>())
-        };
-        let cases: BTreeMap<_, _> = self.cases.iter().map(case).collect();
-        json!({
-            "code": self.code.iter().cloned().collect::<BTreeMap<_, _>>(), "loop": self.first[0], "loop_counted": self.first[1], "scratch": self.first[2],
-            "lent_to_monitor": self.first[3], "monitor": self.first[4], "stack_of_vectors": self.stack_of_vectors,
-            "cases": cases,
-        })
     }
 }
 

@@ -318,30 +318,3 @@ fn a_service_set_that_breaks_a_rule_is_an_error_with_service_and_rule() {
         assert_eq!(accepted(&with(COMPOSITION, absent, "")), accepted(COMPOSITION));
     }
 }
-
-#[test]
-fn without_a_composition_none_says_why() {
-    assert_eq!(accepted(COMPOSITION)["none"], Value::Null);
-    let guarantees = "\"guarantees\": [\"detections\"]";
-    for (old, new, why) in [
-        (guarantees, "\"guarantees\": []", json!({"requirement": "detections", "service": "mot"})),
-        ("[\"control\"]", "[\"mot\"]", json!({"rule": "local_only"})),
-        ("[\"env\", \"tpl\"]", "[\"det\", \"mot\"]", json!({"rule": "same_station"})),
-        ("\"requires\": []", "\"requires\": [\"tracks\"]", json!({"rule": "acyclic"})),
-    ] {
-        let answer = accepted(&with(COMPOSITION, old, new));
-        assert_eq!((&answer["compositions"], &answer["none"]), (&json!([]), &why));
-    }
-}
-
-#[test]
-fn more_than_10_000_closed_choices_are_an_error() {
-    let service = |id: &str, requires: Vec<String>, guarantees: Vec<String>| json!({"id": id, "requires": requires, "guarantees": guarantees, "station": 0});
-    let interfaces: Vec<String> = (0..14).map(|at| format!("i{at}")).collect();
-    let providers = interfaces.iter().flat_map(|it| ["a", "b"].map(|by| (format!("{by}{it}"), it)));
-    let mut services: Vec<Value> =
-        providers.map(|(id, it)| service(&id, vec![], vec![it.clone()])).collect();
-    services.push(service("goal", interfaces, vec![]));
-    let task = json!({"kind": "composition", "id": "s", "services": services, "goal": "goal"});
-    refused(&task.to_string(), "services", None);
-}
