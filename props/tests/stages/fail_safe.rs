@@ -5,7 +5,7 @@ use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
-use mufasa_props::differential::{agree, conforming, hold, near_threshold, same_witness};
+use mufasa_props::differential::{agree, cases, conforming, hold_in, near_threshold};
 use mufasa_props::strategy::base::Frame;
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation::{detection, track};
@@ -26,17 +26,12 @@ fn what_the_cav_saw() {
     assert!(["iv", "safe"].iter().all(|verdict| 4 * tally.count(verdict) > tally.cases), "{tally}");
 }
 
-#[test]
-fn the_witness() {
-    hold("witness of H-14", Profile::HARDENED, fail_safe::cycle, near_threshold, same_witness)
-        .assert_aimed(&["iv", "safe"]);
-}
-
 /// H-14.52, MARGIN-09: the limit is what the strict model counts, which an implementation has to bear, or less
 /// by one.
 #[test]
 fn limited() {
-    let tally = agree("H-14, limited", Profile::HARDENED, limited_cycle, near_threshold);
+    let (title, profile) = ("H-14, limited", Profile::HARDENED);
+    let tally = hold_in(cases() / 4, title, profile, limited_cycle, near_threshold, conforming);
     assert!(10 * tally.undecided > tally.cases, "the limit decides: {tally}");
     tally.assert_aimed(&["iv", "safe"]);
 }
@@ -68,7 +63,7 @@ fn too_much(cycle: &Cycle) -> Option<i64> {
 #[test]
 fn beside_a_path_that_may_have_thousands_of_places() {
     let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
-    for _ in 0..200 {
+    for _ in 0..60 {
         let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
         let cycle = fail_safe::beside_many_points(&mut Draw::new(&tape), Profile::HARDENED);
         let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
@@ -77,7 +72,7 @@ fn beside_a_path_that_may_have_thousands_of_places() {
         safe += u32::from(report.failed_stage.is_none());
         unsafe_ += u32::from(report.witness().is_some_and(|it| it.rule == Rule::FailSafe));
     }
-    assert!(safe > 50 && unsafe_ > 20, "{safe} {unsafe_}");
+    assert!(safe > 15 && unsafe_ > 6, "{safe} {unsafe_}");
 }
 
 /// H-14.51: twenty detections without a track may come from the own origin of a confirmed track, or not. An implementation

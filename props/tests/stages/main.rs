@@ -21,4 +21,3 @@ mod schedule;
 mod track_validation;
 mod tracks;
 mod whole;
-mod witness;

@@ -6,7 +6,7 @@ use mufasa_model::cycle::readings;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::Reading;
 use mufasa_props::conformance::Answer;
-use mufasa_props::differential::{hold, near_threshold};
+use mufasa_props::differential::{Generator, are_enough, cases, hold_in, near_threshold};
 use mufasa_props::strategy::{fail_safe, whole};
 
 fn readings_are_nested(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<(), String> {
@@ -19,20 +19,27 @@ fn readings_are_nested(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result
     Err(format!("one by one {apart:?}\ntogether {together:?}"))
 }
 
+/// How near the cases are to a threshold is asked where the implementation is compared on more of them.
+fn nested(profile: Profile, generator: Generator, verdicts: &[&str]) {
+    let number = cases() / 4;
+    let tally =
+        hold_in(number, "readings", profile, generator, near_threshold, readings_are_nested);
+    if are_enough() {
+        assert!(verdicts.iter().all(|verdict| tally.count(verdict) > 0), "{tally}");
+    }
+}
+
 #[test]
 fn paper() {
-    hold("readings", Profile::PAPER, whole::cycle, near_threshold, readings_are_nested)
-        .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
+    nested(Profile::PAPER, whole::cycle, &["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    hold("readings", Profile::HARDENED, whole::cycle, near_threshold, readings_are_nested)
-        .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
+    nested(Profile::HARDENED, whole::cycle, &["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn of_the_fail_safe_rule() {
-    hold("readings", Profile::HARDENED, fail_safe::cycle, near_threshold, readings_are_nested)
-        .assert_aimed(&["iv", "safe"]);
+    nested(Profile::HARDENED, fail_safe::cycle, &["iv", "safe"]);
 }
