@@ -7,6 +7,7 @@ use std::fmt;
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{Outcome, Reading, Report, Rule, Witness};
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
@@ -141,7 +142,7 @@ pub fn hold(
     hold_in(cases(), title, profile, generator, is_near, property)
 }
 
-/// Runs a property that takes long over so many cycles.
+/// Runs a property over so many cycles.
 ///
 /// # Panics
 /// As `hold`.
@@ -157,9 +158,12 @@ pub fn hold_in(
     let cycles = tape().prop_map(|tape| generator(&mut Draw::new(&tape), profile));
     let result = runner_of(cases).run(&cycles, |cycle| {
         let strict = check(&cycle, Reading::Strict);
-        // What the strict model accepts the exact one accepts with the same outcomes (`props/tests/stages/readings.rs`).
+        // What the strict model accepts the exact one accepts with the same outcomes: `props/tests/stages/readings.rs` asks
+        // it of three generators, and each property of one case of so many.
         let is_safe = strict.as_ref().is_ok_and(|report| report.failed_stage.is_none());
-        let exact = if is_safe { strict.clone() } else { check(&cycle, Reading::Exact) };
+        let is_asked = tally.borrow().cases.is_multiple_of(SAMPLE);
+        let exact =
+            if is_safe && !is_asked { strict.clone() } else { check(&cycle, Reading::Exact) };
         let held = property(&cycle, &exact, &strict);
         let mut tally = tally.borrow_mut();
         // What shrinking tries after a failure is not counted.
@@ -178,8 +182,8 @@ pub fn hold_in(
 }
 
 /// Conformance of the implementation in one cycle; equal outcomes of every stage wherever strict and exact model fail in the
-/// same stage; and their witness wherever both name the same one (`spec/3-stages.md#schedule`). The numbers that were
-/// compared may be rounded.
+/// same stage; and their witness wherever both name the same one (`spec/3-stages.md#schedule`), except where the work
+/// limit may come first. The numbers that were compared may be rounded.
 pub fn conforming(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<(), String> {
     let implementation = check_impl(cycle);
     let told = |what: &dyn fmt::Display| told(what, exact, strict, &implementation);
@@ -191,23 +195,32 @@ pub fn conforming(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<(), 
         return Err(told(&"the outcomes of the stages differ"));
     }
     if let (Ok(exact), Ok(strict), Ok(implementation)) = (exact, strict, &implementation)
-        && has_other_witness(exact, strict, implementation)
+        && has_other_witness(cycle, exact, strict, implementation)
     {
         return Err(told(&"the witnesses differ"));
     }
     Ok(())
 }
 
-fn has_other_witness(exact: &Report, strict: &Report, implementation: &Report) -> bool {
+fn has_other_witness(
+    cycle: &Cycle,
+    exact: &Report,
+    strict: &Report,
+    implementation: &Report,
+) -> bool {
     let outcomes = exact.stages.iter().zip(&strict.stages).zip(&implementation.stages);
-    outcomes.into_iter().any(|outcome| match outcome {
-        ((Outcome::Failed(one), Outcome::Failed(two)), Outcome::Failed(found)) => {
-            // Where another rule fails, an implementation may have counted more steps than the model, and stop there.
-            let is_one = place(one) == place(two) && close(one, two);
-            let may_be_other = found.rule == Rule::WorkLimit;
-            is_one && !may_be_other && (place(one) != place(found) || !close(one, found))
-        }
-        _ => false,
+    outcomes.into_iter().any(|outcome| {
+        let ((Outcome::Failed(one), Outcome::Failed(two)), Outcome::Failed(found)) = outcome else {
+            return false;
+        };
+        // In a cycle that fails anyway an implementation may count more steps than the model, and stop there.
+        let has_stopped = matches!(one.rule, Rule::FailSafe | Rule::MeanCost)
+            && found.rule == Rule::WorkLimit
+            && found.compared[0] > found.compared[1];
+        place(one) == place(two)
+            && close(cycle, one, two)
+            && !has_stopped
+            && (place(one) != place(found) || !close(cycle, one, found))
     })
 }
 
@@ -259,10 +272,15 @@ fn place(witness: &Witness) -> impl PartialEq + use<> {
     (rule, point, track, detection, item, age_ns, segment, disk, cell)
 }
 
-/// The numbers that were compared, the same but for rounding. Of two cells on whose border a disk's centre lies either may
-/// be measured (S5-05).
-fn close(one: &Witness, other: &Witness) -> bool {
-    if one.rule == Rule::Occupied && other.compared[0] <= other.compared[1] + 1e-6 {
+/// The numbers that were compared, the same except for rounding. Of two cells on whose border the centre of a disk lies either
+/// may be measured (S5-05).
+fn close(cycle: &Cycle, one: &Witness, other: &Witness) -> bool {
+    let resolution = cycle.grid.as_ref().map_or(0.0, |grid| grid.resolution);
+    if one.rule == Rule::Occupied
+        && !cycle.profile.has(HardenedRule::H06)
+        && (one.compared[0] - other.compared[0]).abs() <= 1.5 * resolution
+        && other.compared[0] <= other.compared[1] + 1e-6
+    {
         return (one.compared[1] - other.compared[1]).abs() <= 1e-6 * (1.0 + one.compared[1]);
     }
     let pairs = one.compared.iter().zip(other.compared);

@@ -19,10 +19,10 @@ use proptest::strategy::{Strategy, ValueTree};
 /// Draws per generator.
 const DRAWS: u64 = 600;
 
-fn measure(title: &str, draws: u64, generator: impl Fn(&mut Draw<'_>) -> Cycle, verdicts: &[&str]) {
+fn measure(title: &str, generator: impl Fn(&mut Draw<'_>) -> Cycle, verdicts: &[&str]) {
     let mut runner = runner();
     let mut tally = Tally::default();
-    for _ in 0..draws {
+    for _ in 0..DRAWS {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
         let cycle = generator(&mut Draw::new(&tape));
         tally.cases += 1;
@@ -41,7 +41,7 @@ fn measure(title: &str, draws: u64, generator: impl Fn(&mut Draw<'_>) -> Cycle, 
 #[test]
 fn roads_alike_are_aimed() {
     for profile in [Profile::PAPER, Profile::HARDENED] {
-        measure("roads alike", DRAWS, |draw| roads::alike(draw, profile), &["ii", "safe"]);
+        measure("roads alike", |draw| roads::alike(draw, profile), &["ii", "safe"]);
     }
 }
 
@@ -50,7 +50,7 @@ fn roads_alike_are_aimed() {
 fn the_fail_safe_rule_is_aimed_at() {
     for (aim, (title, _)) in fail_safe::AIMS.iter().enumerate() {
         let aimed = |draw: &mut Draw<'_>| fail_safe::aimed(draw, Profile::HARDENED, aim);
-        measure(title, DRAWS, aimed, &["iv", "safe"]);
+        measure(title, aimed, &["iv", "safe"]);
     }
 }
 

@@ -2,7 +2,7 @@
 //! (IMPL-01), completeness (`.2`) and failing
 //! stage (`.3`), as `conformance::conforms` has them:
 //! IMPL-02,
-//! IMPL-03, IMPL-04. The outcomes of all stages: SCHED-14. The first witness in the order of the rules: SCHED-19.
+//! IMPL-03, IMPL-04. The outcomes of all stages: SCHED-14. Witnesses: SCHED-19, SCHED-20.
 
 use std::collections::BTreeSet;
 

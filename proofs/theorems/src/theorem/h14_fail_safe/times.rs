@@ -1,6 +1,8 @@
-//! H-14: whatever the CAV does until it brakes, it has driven as far as a place of its path between `first` and `last`
-//! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any acceleration that
-//! it can have; what holds of all of them is kept by each, an induction that is not part of the theorems.
+//! H-14: whatever the CAV does until it brakes, except braking harder than a_b, it has driven as
+//! far as a place of its path between `first` and `last`
+//! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any
+//! acceleration that it can have; what holds of all of them is kept by each, an induction that is
+//! not part of the theorems.
 
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
@@ -83,7 +85,8 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "no_CAV_is_anywhere_after_last",
-        statement: "H-14: whatever it does, while the CAV is at a way f < s_b(v) it is not after last(f)",
+        statement: "H-14: whatever it does, except braking harder than a_b, while the CAV is at a way f < s_b(v) it is not \
+                    after last(f)",
         domain: DOMAIN,
         claim: || after_last(Cav::s_b),
         wrong: Wrong { statement: "f < s_stop", claim: || after_last(Cav::s_stop) },
