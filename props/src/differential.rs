@@ -125,28 +125,14 @@ pub fn agree(
     generator: Generator,
     is_near: fn(&Cycle) -> bool,
 ) -> Tally {
-    hold(title, profile, generator, is_near, conforming)
+    hold(cases(), title, profile, generator, is_near, conforming)
 }
 
-/// Runs a property over cycles of a generator.
+/// Runs a property over so many cycles of a generator.
 ///
 /// # Panics
 /// With the smallest cycle found, when it does not hold.
 pub fn hold(
-    title: &str,
-    profile: Profile,
-    generator: Generator,
-    is_near: fn(&Cycle) -> bool,
-    property: Property,
-) -> Tally {
-    hold_in(cases(), title, profile, generator, is_near, property)
-}
-
-/// Runs a property over so many cycles.
-///
-/// # Panics
-/// As `hold`.
-pub fn hold_in(
     cases: u32,
     title: &str,
     profile: Profile,

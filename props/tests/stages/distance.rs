@@ -8,7 +8,7 @@ use mufasa_model::services::configuration::Configuration;
 use mufasa_model::stages::distances::s_follow;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::conformance::Answer;
-use mufasa_props::differential::{conforming, hold, near_threshold};
+use mufasa_props::differential::{cases, conforming, hold, near_threshold};
 use mufasa_props::strategy::base;
 use mufasa_props::strategy::draw::Draw;
 
@@ -72,12 +72,12 @@ fn conforming_and_close(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Resul
 
 #[test]
 fn paper() {
-    hold("s_follow", Profile::PAPER, cycle, near_threshold, conforming_and_close)
+    hold(cases(), "s_follow", Profile::PAPER, cycle, near_threshold, conforming_and_close)
         .assert_aimed(&["iv", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    hold("s_follow", Profile::HARDENED, cycle, near_threshold, conforming_and_close)
+    hold(cases(), "s_follow", Profile::HARDENED, cycle, near_threshold, conforming_and_close)
         .assert_aimed(&["iv", "safe"]);
 }

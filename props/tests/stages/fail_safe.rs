@@ -5,7 +5,7 @@ use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
-use mufasa_props::differential::{agree, cases, conforming, hold_in, near_threshold};
+use mufasa_props::differential::{agree, cases, conforming, hold, near_threshold};
 use mufasa_props::strategy::base::Frame;
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation::{detection, track};
@@ -31,7 +31,7 @@ fn what_the_cav_saw() {
 #[test]
 fn limited() {
     let (title, profile) = ("H-14, limited", Profile::HARDENED);
-    let tally = hold_in(cases() / 4, title, profile, limited_cycle, near_threshold, conforming);
+    let tally = hold(cases() / 4, title, profile, limited_cycle, near_threshold, conforming);
     assert!(10 * tally.undecided > tally.cases, "the limit decides: {tally}");
     tally.assert_aimed(&["iv", "safe"]);
 }

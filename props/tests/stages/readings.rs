@@ -6,7 +6,7 @@ use mufasa_model::cycle::readings;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::Reading;
 use mufasa_props::conformance::Answer;
-use mufasa_props::differential::{Generator, are_enough, cases, hold_in, near_threshold};
+use mufasa_props::differential::{Generator, are_enough, cases, hold, near_threshold};
 use mufasa_props::strategy::{fail_safe, whole};
 
 fn readings_are_nested(cycle: &Cycle, _: &Answer, _: &Answer) -> Result<(), String> {
@@ -22,8 +22,7 @@ fn readings_are_nested(cycle: &Cycle, _: &Answer, _: &Answer) -> Result<(), Stri
 /// How near the cases are to a threshold is asked where the implementation is compared on more of them.
 fn nested(profile: Profile, generator: Generator, verdicts: &[&str]) {
     let number = cases() / 4;
-    let tally =
-        hold_in(number, "readings", profile, generator, near_threshold, readings_are_nested);
+    let tally = hold(number, "readings", profile, generator, near_threshold, readings_are_nested);
     if are_enough() {
         assert!(verdicts.iter().all(|verdict| tally.count(verdict) > 0), "{tally}");
     }

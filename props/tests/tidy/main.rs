@@ -5,6 +5,7 @@
 mod assumptions;
 mod circles;
 mod closes;
+mod counts;
 mod decisions;
 mod evidence;
 #[path = "../tree/hash.rs"]
@@ -226,6 +227,11 @@ fn known_problems_for_programs_are_those_of_the_page() {
 #[test]
 fn rules_close_the_same_findings_in_all_tables() {
     judge(&closes::wrong(&Tree::here()), &[]);
+}
+
+#[test]
+fn findings_are_counted_as_their_tables_have_them() {
+    judge(&counts::missing(&Tree::here()), &[]);
 }
 
 /// An assessor looks it up.
