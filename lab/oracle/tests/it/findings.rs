@@ -191,3 +191,32 @@ fn is_safe(cycle: &Cycle) -> bool {
     let report = check(cycle, Reading::Exact).expect("the local input is valid");
     report.failed_stage.is_none()
 }
+
+/// F-54: the car of each vector crosses straight on at 5 m/s. It meets the CAV that brakes harder than the vector's a_b, first
+/// at that time and speed of the CAV, and not the one that brakes with it.
+#[test]
+fn a_cav_that_brakes_harder_meets_who_one_that_brakes_with_a_b_lets_pass() {
+    let lines = read("vectors/findings/F-54.jsonl");
+    for (id, a_b, harder, after_ms, at) in
+        [("F-54-harder", 8.0, 11.0, 800, 6.2), ("F-54-smaller", 4.0, 8.0, 900, 7.8)]
+    {
+        let line = lines.lines().find(|it| it.contains(&format!("\"id\": \"{id}\"")));
+        let vector: serde_json::Value = serde_json::from_str(line.expect(id)).expect("JSON");
+        let (cav, car) = (&vector["input"]["ego"], &vector["input"]["detections"]["items"][0]);
+        let number = |of: &serde_json::Value, field: &str| of[field].as_f64().expect("a number");
+        let v = number(cav, "speed");
+        let meets = |b: f64, ms: u32| {
+            let t = f64::from(ms) / 1000.0;
+            let driven = t.min(v / b);
+            let along = v * driven - b * driven * driven / 2.0 + number(cav, "center_offset")
+                - number(car, "x");
+            let aside = number(car, "y") + 5.0 * t;
+            along.abs() <= f64::midpoint(number(cav, "length"), number(car, "width"))
+                && aside.abs() <= f64::midpoint(number(cav, "width"), number(car, "length"))
+        };
+        let first = (0..5000).find(|ms| meets(harder, *ms)).expect("they meet");
+        assert!(first.abs_diff(after_ms) <= 1, "{id}: {first} ms");
+        assert!((v - harder * f64::from(first) / 1000.0 - at).abs() < 0.1, "{id}");
+        assert!((0..5000).all(|ms| !meets(a_b, ms)), "{id}: it meets the other, too");
+    }
+}
