@@ -130,9 +130,9 @@
 //! * Control follows the trajectory of a safe decision until the next one, a copy of the last verified
 //!   one while a safe decision has none and MOT is remote or the local planner is stopped, and the local planner's
 //!   otherwise. Where there is none of these by the `brake_by` of the last verified one, control brakes along
-//!   it with `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
+//!   it with at least `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
-//! * A verdict is as good as the method: eight findings are open in the hardened profile
+//! * A verdict is as good as the method: ten findings are open in the hardened profile
 //!   (`findings/README.md`). Nothing here is certified.
 //!
 //! # Where things are

@@ -83,7 +83,7 @@ pub struct Sender {
 pub enum Follows {
     /// It follows a plan of the CAV's own planner that came out of no cycle.
     OwnPlan,
-    /// It brakes fully.
+    /// It brakes with at least `a_b`.
     Brakes,
     /// It follows a trajectory that came out of a cycle.
     Verified(VerifiedAnswer),

@@ -3,15 +3,14 @@
 
 pub(crate) mod places;
 
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{Times, s_tyre};
 use crate::input::cycle::{Cycle, Lead};
 use crate::numbers::rounding::Real;
-use crate::stages::distances::s_b;
 
-/// `s_react` = max(`s_stop` - `s_b(v_lead)`, 0), m: what the CAV needs more than a leader that
-/// brakes, to stop (H-04.2).
+/// `s_react` = max(`s_stop` - `s_tyre(v_lead)`, 0), m: what the CAV needs more than a leader that
+/// brakes as hard as tyres hold, to stop (H-04.2).
 pub(crate) fn s_react(cycle: &Cycle<'_>, lead: &Lead) -> Real {
     let s_stop = Times::<Real>::new(cycle).s_stop;
     //
-    (s_stop - s_b(&cycle.parameters, Real::new(lead.speed))).max(Real::ZERO)
+    (s_stop - s_tyre(&cycle.parameters, Real::new(lead.speed))).max(Real::ZERO)
 }

@@ -46,7 +46,7 @@ pub enum Decision<'m> {
     },
 }
 
-/// Why control has to brake fully, with `a_b`, from this cycle on until one says nothing of the kind: with
+/// Why control has to brake with at least `a_b` from this cycle on until one says nothing of the kind: with
 /// [`supervise_local`](super::Settings::supervise_local) the monitor asks in `Local` of the CAV's own plan what it asks
 /// of a station's (F-48). Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]

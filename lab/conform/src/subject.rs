@@ -23,8 +23,8 @@ const GRACE: Duration = Duration::from_millis(20);
 /// The first answer after a start may take so many times the limit: a program has to load first.
 const START: u32 = 5;
 
-/// How long an ended program is waited for.
-const LAST_WORDS: Duration = Duration::from_millis(300);
+/// How long an ended program is waited for, and then the end of its standard error.
+const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// No answer, or none that can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,6 +62,8 @@ struct Running {
     /// Lines on their way to the program; dropped to end its input.
     lines: Sender<Vec<u8>>,
     last_words: Arc<Mutex<Vec<u8>>>,
+    /// Closed at the end of its standard error.
+    speaks: Receiver<()>,
     /// Whether it was asked before.
     answered: bool,
 }
@@ -234,6 +236,7 @@ impl Running {
         let (say, heard) = mpsc::sync_channel(WAITING_LINES);
         let (lines, to_write) = mpsc::channel();
         let last_words = Arc::new(Mutex::new(Vec::new()));
+        let (spoken, speaks) = mpsc::channel();
         // The threads end with the pipes; nobody waits for them, as a grandchild may hold those.
         if let Some(output) = child.stdout.take() {
             thread::spawn(move || read(output, &say));
@@ -243,9 +246,12 @@ impl Running {
         }
         if let Some(errors) = child.stderr.take() {
             let kept = Arc::clone(&last_words);
-            thread::spawn(move || keep_last(errors, &kept));
+            thread::spawn(move || {
+                keep_last(errors, &kept);
+                drop(spoken);
+            });
         }
-        Ok(Self { child, heard, lines, last_words, answered: false })
+        Ok(Self { child, heard, lines, last_words, speaks, answered: false })
     }
 
     /// Nothing has come that was not asked for.
@@ -271,7 +277,7 @@ impl Running {
                 let words = format!(
                     "no answer within {} ms (does it flush its output after every line?){}",
                     time_limit.as_millis(),
-                    self.said()
+                    self.said(GRACE)
                 );
                 Err(Broken::new(Breach::Hangs, words))
             }
@@ -283,13 +289,12 @@ impl Running {
             || format!("closes its output {when}"),
             |status| format!("ends {when} ({status})"),
         );
-        Broken::new(Breach::Dies, how + &self.said())
+        Broken::new(Breach::Dies, how + &self.said(LAST_WORDS))
     }
 
-    /// The last words on standard error.
-    fn said(&self) -> String {
-        // The thread that reads them may be a moment behind.
-        thread::sleep(Duration::from_millis(5));
+    /// The last words on standard error, whose end is waited for so long: a grandchild may hold it open.
+    fn said(&self, time: Duration) -> String {
+        let _ = self.speaks.recv_timeout(time);
         let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
         let text = text.trim();

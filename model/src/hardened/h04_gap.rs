@@ -5,11 +5,10 @@ use crate::input::profile::HardenedRule;
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
-use crate::stages::distances::s_b;
 
-/// s_react = max(s_stop - s_b(v_lead), 0), m.
+/// s_react = max(s_stop - s_tyre(v_lead), 0), m.
 pub fn s_react(driving: &Driving, v_lead: &Real) -> Real {
-    (driving.s_stop() - s_b(v_lead, driving.a_b)).max(Real::zero())
+    (driving.s_stop() - driving.s_tyre(v_lead)).max(Real::zero())
 }
 
 /// In the place of stage iv when that did not run, with a current trajectory: the gap is <= s_react.

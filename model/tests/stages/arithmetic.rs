@@ -105,9 +105,9 @@ const NEAR: &[Near] = &[
         c.lead = lead(15.0 - e, 10.0);
     }),
     ("gap <= s_react + m", PlanRemote, Profile::HARDENED, |c, e| {
-        // s_stop = 2.5 + 3/32 + 10.75^2 / 16, and s_b(10) = 6.25.
+        // s_stop = 2.5 + 3/32 + 10.75^2 / 16, and s_tyre(5.75) = 1.4375.
         c.parameters.tau = 0.25;
-        c.lead = lead(9.816_406_25 - 6.25 - e, 10.0);
+        c.lead = lead(9.816_406_25 - 1.4375 - e, 5.75);
     }),
     ("half length of the CAV + m", PlanRemote, Profile::PAPER, |c, e| {
         c.ego.speed = 0.0;

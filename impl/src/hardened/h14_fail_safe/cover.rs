@@ -5,7 +5,7 @@
 //! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
 
 use crate::hardened::h14_fail_safe::nodes::{Line, Nodes};
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{Times, a_tyre};
 use crate::input::cycle::{Cycle, Ego};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{EMPTY, extend, larger, smaller};
@@ -26,21 +26,22 @@ pub(super) struct Clock {
     pub(super) times: Times<f64>,
     /// tau + `t_yield`
     yields: f64,
-    /// 1 / (2 `a_yield`), 1 / (2 `a_b`)
+    /// 1 / (2 `a_yield`), 1 / (2 `a_tyre`)
     yielding: f64,
     braking: f64,
-    a_b: f64,
+    a_tyre: f64,
 }
 
 impl Clock {
     pub(super) fn new(cycle: &Cycle<'_>) -> Self {
         let (times, parameters) = (Times::new(cycle), &cycle.parameters);
+        let a_tyre = a_tyre(parameters);
         Self {
             times,
             yields: parameters.tau + parameters.t_yield,
             yielding: 0.5 / parameters.a_yield,
-            braking: 0.5 / parameters.a_b,
-            a_b: parameters.a_b,
+            braking: 0.5 / a_tyre,
+            a_tyre,
         }
     }
 
@@ -58,7 +59,7 @@ impl Clock {
     /// `r_b` of H-14.24 is the way in that time.
     pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
         let seconds = larger(seconds, 0.0);
-        let lost = self.a_b * seconds;
+        let lost = self.a_tyre * seconds;
         // Nothing is taken from what is not smaller, so that this errs by less than 2^-50 of itself.
         if lost < speed { seconds * (1.0 - 0.5 * (lost / speed)) } else { speed * self.braking }
     }
@@ -106,7 +107,7 @@ impl Cover {
         let from = larger(progress - APART - round(progress), 0.0);
         self.start = times.first(from) * (1.0 - 1e-9) - 1e-9;
         let to = length + LONGER + round(length);
-        let passes = to < times.s_b * (1.0 - ROUGH);
+        let passes = to < times.s_tyre * (1.0 - ROUGH);
         self.end = passes.then(|| times.last(to) * (1.0 + 1e-9) + 1e-9);
     }
 

@@ -222,7 +222,7 @@ impl<'c, 'a> Places<'c, 'a> {
         let (spot, start) = (Spot::new(&self.ego, place), times.plainly_first(place.least));
         let meets = |end: f64| !spot.is_missed(object, [start, end], clock);
         // H-14.12
-        if let Some(after) = place.after.filter(|after| after.certainly_below(times.s_b)) {
+        if let Some(after) = place.after.filter(|after| after.certainly_below(times.s_tyre)) {
             return meets(times.plainly_last(after));
         }
         // H-14.13

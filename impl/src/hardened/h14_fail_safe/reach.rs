@@ -2,7 +2,7 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::times::{Times, longest};
+use crate::hardened::h14_fail_safe::times::{TYRES, Times, longest};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -19,7 +19,7 @@ const TURNED: f64 = 0.17;
 /// A car is taken to turn on no smaller circle, m: its radius.
 const CIRCLE: f64 = 3.0;
 /// Half of what tyres hold, m/s^2.
-const TYRES: f64 = 5.75;
+const HALF_TYRES: f64 = 0.5 * TYRES;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
 /// without that stage ii of W1 and W2 takes a third more instructions.
@@ -95,8 +95,8 @@ fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness>
     if times.s_b.certainly_at_most(f) {
         return None;
     }
-    let bound =
-        Real::new(ASIDE) + Real::new(TURNED) * f + Real::new(TYRES) * times.last(f).squared();
+    let t = times.braking_with_a_b(f);
+    let bound = Real::new(ASIDE) + Real::new(TURNED) * f + Real::new(HALF_TYRES) * t.squared();
     let witness = || Witness::of(Rule::Reach, [aside.value(), bound.value()]);
     (!aside.certainly_at_most(bound)).then(witness)
 }
@@ -145,7 +145,7 @@ impl Plain {
             return true;
         }
         let t = if f > 0.0 { f / self.v } else { 0.0 };
-        let bound = ASIDE + TURNED * larger(f, 0.0) + TYRES * (1.0 - 1e-9) * t * t;
+        let bound = ASIDE + TURNED * larger(f, 0.0) + HALF_TYRES * (1.0 - 1e-9) * t * t;
         larger(aside.abs(), aside_to.abs()) + error < bound
     }
 }

@@ -2,15 +2,20 @@
 //! bounds or in plain doubles.
 
 use crate::input::cycle::Cycle;
+use crate::input::parameters::Parameters;
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::stages::distances::{Number, s_b};
+
+/// What tyres hold, m/s^2.
+pub(super) const TYRES: f64 = 11.5;
 
 /// What the CAV can do from now on; m, s, m/s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Times<N> {
     v: N,
     a_b: N,
+    a_tyre: N,
     a_max: N,
     tau: N,
     pub(crate) v_tau: N,
@@ -19,8 +24,10 @@ pub(crate) struct Times<N> {
     pub(crate) s_stop: N,
     /// T
     pub(crate) until_stop: N,
-    /// `s_b(v)`: from here on the CAV may stand.
+    /// `s_b(v)`: where the CAV stands that brakes with `a_b`.
     pub(crate) s_b: N,
+    /// `s_tyre(v)`: from here on the CAV may stand.
+    pub(crate) s_tyre: N,
     /// What plain doubles err in the square of a speed.
     rough: N,
 }
@@ -37,6 +44,7 @@ impl<N: Number> Times<N> {
         Self {
             v,
             a_b,
+            a_tyre: N::from_double(a_tyre(parameters)),
             a_max,
             tau,
             v_tau,
@@ -44,6 +52,7 @@ impl<N: Number> Times<N> {
             s_stop: s_tau.plus(s_b(parameters, v_tau)),
             until_stop: tau.plus(v_tau.divided_by(a_b)),
             s_b: s_b(parameters, v),
+            s_tyre: s_tyre(parameters, v),
             rough: N::from_double(N::ROUGH).times(v_tau.times(v_tau)),
         }
     }
@@ -63,11 +72,21 @@ impl<N: Number> Times<N> {
         squared.or_larger(zero).root().minus(self.v).divided_by(self.a_max)
     }
 
-    /// The latest time at f < `s_b(v)`. In plain doubles up to 1e-9 s less.
+    /// The latest time at f < `s_tyre(v)`. In plain doubles up to 1e-9 s less.
     pub(crate) fn last(&self, f: N) -> N {
-        let squared = self.v.times(self.v).minus(double(self.a_b).times(f)).minus(self.rough);
+        self.braking(f, self.a_tyre)
+    }
+
+    /// When the CAV is at f < `s_b(v)`, braking with `a_b`: t of H-14.15.
+    pub(crate) fn braking_with_a_b(&self, f: N) -> N {
+        self.braking(f, self.a_b)
+    }
+
+    /// When it is at f, braking with `a`. In plain doubles up to 1e-9 s less.
+    fn braking(&self, f: N, a: N) -> N {
+        let squared = self.v.times(self.v).minus(double(a).times(f)).minus(self.rough);
         let left = squared.or_larger(N::from_double(0.0)).root();
-        self.v.minus(left).divided_by(self.a_b)
+        self.v.minus(left).divided_by(a)
     }
 }
 
@@ -80,7 +99,7 @@ impl Times<Real> {
         let ([v, a_max], [way, _]) = ([self.v, self.a_max].map(Real::value), ends(f));
         if way > self.s_tau.value() {
             let [_, left] = ends(self.s_stop - f);
-            self.until_stop.value() - self.plainly_stops(left)
+            self.until_stop.value() - plainly_stops(left, self.a_b)
         } else if way > NOTHING {
             way / (0.5 * (libm::sqrt(v * v + 2.0 * a_max * way) + v))
         } else {
@@ -90,14 +109,26 @@ impl Times<Real> {
 
     /// `last` in plain doubles, as exactly.
     pub(super) fn plainly_last(&self, f: Real) -> f64 {
-        let [left, _] = ends(self.s_b - f);
-        self.v.value() / self.a_b.value() - self.plainly_stops(left)
+        let [left, _] = ends(self.s_tyre - f);
+        self.v.value() / self.a_tyre.value() - plainly_stops(left, self.a_tyre)
     }
+}
 
-    /// How long braking to a stop takes on so many m, s.
-    fn plainly_stops(&self, way: f64) -> f64 {
-        libm::sqrt(2.0 * larger(way, 0.0) / self.a_b.value())
-    }
+/// How long braking with `a` to a stop takes on so many m, s.
+fn plainly_stops(way: f64, a: Real) -> f64 {
+    libm::sqrt(2.0 * larger(way, 0.0) / a.value())
+}
+
+/// `a_tyre` = max(`a_b`, 11.5 m/s^2): no vehicle brakes harder (H-14.10). One of the two, not rounded.
+pub(super) fn a_tyre(parameters: &Parameters) -> f64 {
+    // A-09; A-10
+    larger(parameters.a_b, TYRES)
+}
+
+/// `s_tyre(v)` = v^2 / (2 `a_tyre`), m.
+pub(crate) fn s_tyre<N: Number>(parameters: &Parameters, v: N) -> N {
+    // H-14.10
+    v.times(v).divided_by(N::from_double(2.0 * a_tyre(parameters)))
 }
 
 /// The least and the greatest that a number may be, each rounded once.

@@ -3,7 +3,7 @@
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, all_motions};
 use mufasa_model::hardened::h14_fail_safe::path::{first_ahead, places};
 use mufasa_model::hardened::h14_fail_safe::reach;
-use mufasa_model::hardened::h14_fail_safe::times::{Driving, window};
+use mufasa_model::hardened::h14_fail_safe::times::{Driving, a_tyre, window};
 use mufasa_model::input::scene::Scene;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::stages::llcc::cav;
@@ -63,9 +63,10 @@ pub fn windows() -> String {
         scene(&json!({"ego": ego(8.0), "trajectory": trajectory(200_000_000, &[[0.0, 0.0, 0.0]])}));
     let (driving, points) =
         (Driving::of(&scene), scene.trajectory.as_ref().expect("it is current"));
-    let [s_b, s_stop, t] = [driving.s_b(), driving.s_stop(), driving.t_stop()].map(|it| it.near());
+    let [s_tyre, s_stop, t] =
+        [driving.s_tyre(driving.v), driving.s_stop(), driving.t_stop()].map(|it| it.near());
     let words = "A bar for each place, straight on: from first at the place before to last at the place after. Neighbours overlap. \
-                 Where the place after it is at s_b(v) or farther the CAV may stand: these bars end at H(w), or at T for an object that comes across.";
+                 Where the place after it is at s_tyre(v) or farther the CAV may stand: these bars end at H(w), or at T for an object that comes across.";
     let mut sheet = Sheet::new(1, [880.0, 400.0], 2);
     let look = Look {
         title: "Windows: time over distance, v = 8 m/s",
@@ -90,20 +91,20 @@ pub fn windows() -> String {
             ways.map(|f| [f, of(&Real::from_double(f)).near()]).collect()
         };
         pen.line(&curve(&|f| driving.first(f), s_stop), "path");
-        pen.line(&curve(&|f| driving.last(f), s_b), "path");
+        pen.line(&curve(&|f| driving.last(f), s_tyre), "path");
         pen.arrow([-0.1, 0.0], [5.6, 0.0]);
         pen.arrow([0.0, -0.05], [0.0, 1.48]);
         pen.words([5.6, 0.0], [-24.0, 18.0], "", "distance, m");
         pen.words([0.0, 1.48], [-62.0, 12.0], "", "time, s");
         pen.line(&[[0.0, t], [5.4, t]], "limit");
         pen.words([0.0, t], [-18.0, 4.0], "", "T");
-        pen.line(&[[s_b, -0.04], [s_b, 1.5]], "limit");
-        pen.words([s_b, 0.0], [0.0, 24.0], "m", "s_b(v)");
+        pen.line(&[[s_tyre, -0.04], [s_tyre, 1.5]], "limit");
+        pen.words([s_tyre, 0.0], [0.0, 24.0], "m", "s_tyre(v)");
         pen.line(&[[s_stop, -0.04], [s_stop, 1.5]], "limit");
         pen.words([s_stop, 0.0], [0.0, 24.0], "m", "s_stop");
         pen.words([3.1, 0.7], [0.0, -8.0], "e", "last(f)");
         pen.words([4.4, 0.6], [0.0, 34.0], "", "first(f)");
-        pen.words([s_b - 0.25, 1.35], [-16.0, 0.0], "e", "the CAV may stand");
+        pen.words([s_tyre - 0.25, 1.35], [-16.0, 0.0], "e", "the CAV may stand");
     });
     sheet.finish()
 }
@@ -136,7 +137,12 @@ pub fn reach() -> String {
             let limit = |side: f64| -> Vec<[f64; 2]> {
                 let ways = (0..50).map(|k| driving.s_b().near() * f64::from(k) / 50.0);
                 let limit = |f: f64| {
-                    0.5 + 0.17 * f + 5.75 * driving.last(&Real::from_double(f)).near().powi(2)
+                    0.5 + 0.17 * f
+                        + 5.75
+                            * driving
+                                .braking_with(driving.a_b, &Real::from_double(f))
+                                .near()
+                                .powi(2)
                 };
                 ways.map(|f| [f, side * limit(f)]).collect()
             };
@@ -173,7 +179,7 @@ fn swept(sheet: &mut Sheet) {
     let strip = |from: f64, to: f64| strip(&scene, motion, from, to);
     let look = Look {
         title: "Swept over in the window from 0.5 s to 0.7 s",
-        words: "Dashed orange: at the time of the list. Dashed purple: the window's strip, from braking with a_b since then to going on.",
+        words: "Dashed orange: at the time of the list. Dashed purple: the window's strip, from braking with a_tyre since then to going on.",
         low: [-2.6, -2.4],
         scale: [33.0; 2],
     };
@@ -191,7 +197,7 @@ fn swept(sheet: &mut Sheet) {
 /// The convex hull of what a motion covers in a window.
 fn strip(scene: &Scene, motion: &Motion, from: f64, to: f64) -> Vec<[f64; 2]> {
     let [from, to] = [from, to].map(|t| &motion.age + Real::from_double(t));
-    let ends = [motion.r_b(&scene.parameters.a_b, &from), &motion.speed * &to];
+    let ends = [motion.r_b(&a_tyre(&scene.parameters.a_b), &from), &motion.speed * &to];
     let moved = ends.iter().flat_map(|r| {
         let [x, y] = xy(&motion.moved_by(r));
         corners(&motion.object.rectangle()).map(|[a, b]| [a + x, b + y])

@@ -5,7 +5,7 @@ use std::cell::LazyCell;
 
 use crate::hardened::h14_fail_safe::motions::{Motion, Named};
 use crate::hardened::h14_fail_safe::path::{Place, places};
-use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
+use crate::hardened::h14_fail_safe::times::{Driving, Window, a_tyre, window};
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
 use crate::numbers::real::Real;
@@ -87,7 +87,7 @@ fn sweeps_over(
         None if comes_across => Driving::of(scene).t_stop(),
         None => h(scene, motion),
     };
-    let least = motion.r_b(&scene.parameters.a_b, &(&motion.age + &window.begin));
+    let least = motion.r_b(&a_tyre(&scene.parameters.a_b), &(&motion.age + &window.begin));
     let most = &motion.speed * (&motion.age + end);
     let between = [least, most].map(|r| motion.moved_by(&r));
     is_swept_over_between(cav, &motion.object.rectangle(), &motion.w, &between)

@@ -44,12 +44,12 @@ impl Motion {
         Self { object: object.clone(), age, speed: w.length(), w, named }
     }
 
-    /// r_b(t) = abs(w) t - a_b t^2 / 2 up to t = abs(w) / a_b, and s_b(abs(w)) from then on, m.
-    pub fn r_b(&self, a_b: &Real, t: &Real) -> Real {
-        if a_b * t <= self.speed {
-            &self.speed * t - a_b * t.square() / Real::from_integer(2)
+    /// r_b(t) = abs(w) t - a_tyre t^2 / 2 up to t = abs(w) / a_tyre, and s_tyre(abs(w)) from then on, m.
+    pub fn r_b(&self, a_tyre: &Real, t: &Real) -> Real {
+        if a_tyre * t <= self.speed {
+            &self.speed * t - a_tyre * t.square() / Real::from_integer(2)
         } else {
-            s_b(&self.speed, a_b)
+            s_b(&self.speed, a_tyre)
         }
     }
 

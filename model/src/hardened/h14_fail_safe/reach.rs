@@ -33,7 +33,7 @@ fn ahead_and_aside(scene: &Scene, x: &Vector) -> [Real; 2] {
     [ahead(scene, x).max(Real::zero()), aside]
 }
 
-/// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
+/// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t that of braking with a_b up to f, where f < s_b(v).
 fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
     let driving = Driving::of(scene);
     let [f, aside] = ahead_and_aside(scene, x);
@@ -41,7 +41,7 @@ fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
         return None;
     }
     let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
-    let limit = offset + turn * &f + grip * driving.last(&f).square();
+    let limit = offset + turn * &f + grip * driving.braking_with(driving.a_b, &f).square();
     Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)
 }
 

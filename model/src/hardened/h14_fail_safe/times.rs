@@ -1,4 +1,4 @@
-//! When the CAV is where, going on for tau at most and then braking to a stop
+//! When the CAV is where, going on for tau at most and then braking to a stop, with a_b or harder
 //! (`spec/hardened/H-14.md#requirements-windows`).
 
 use crate::input::scene::Scene;
@@ -41,9 +41,19 @@ impl<'a> Driving<'a> {
         self.s_tau() + s_b(&self.v_tau(), self.a_b)
     }
 
-    /// s_b(v), m: from there on the CAV may stand.
+    /// s_b(v), m.
     pub fn s_b(&self) -> Real {
         s_b(self.v, self.a_b)
+    }
+
+    /// That of `a_b`, m/s^2.
+    pub fn a_tyre(&self) -> Real {
+        a_tyre(self.a_b)
+    }
+
+    /// s_tyre(speed) = speed^2 / (2 a_tyre), m.
+    pub fn s_tyre(&self, speed: &Real) -> Real {
+        s_b(speed, &self.a_tyre())
     }
 
     /// T = tau + v_tau / a_b, s: from then on the CAV surely stands.
@@ -62,11 +72,21 @@ impl<'a> Driving<'a> {
         self.tau + (v_tau - squared.max(Real::zero()).sqrt()) / self.a_b
     }
 
-    /// The latest time at which it has driven no more than f < s_b(v), s: (v - sqrt(max(v^2 - 2 a_b f, 0))) / a_b.
+    /// The latest time at which it has driven no more than f < s_tyre(v), s.
     pub fn last(&self, f: &Real) -> Real {
-        let squared = self.v.square() - two() * self.a_b * f;
-        (self.v - squared.max(Real::zero()).sqrt()) / self.a_b
+        self.braking_with(&self.a_tyre(), f)
     }
+
+    /// When it has driven f, braking at once with the deceleration a, s: (v - sqrt(max(v^2 - 2 a f, 0))) / a.
+    pub fn braking_with(&self, a: &Real, f: &Real) -> Real {
+        let squared = self.v.square() - two() * a * f;
+        (self.v - squared.max(Real::zero()).sqrt()) / a
+    }
+}
+
+/// a_tyre = max(a_b, 11.5 m/s^2): no vehicle brakes harder.
+pub fn a_tyre(a_b: &Real) -> Real {
+    a_b.clone().max(Real::from_double(11.5))
 }
 
 fn two() -> Real {
@@ -83,14 +103,14 @@ pub struct Window {
 }
 
 /// The window of a place: from first(least progress around it, at least 0) to last(length at the place after it), or
-/// without an end where the CAV may stand there (length >= s_b(v)), and at the last place (`None`).
+/// without an end where the CAV may stand there (length >= s_tyre(v)), and at the last place (`None`).
 pub fn window(
     reads: &Comparisons,
     driving: &Driving,
     least: &Real,
     length_after: Option<&Real>,
 ) -> Window {
-    let may_stand = |length: &Real| *length >= reads.lowered(&driving.s_b());
+    let may_stand = |length: &Real| *length >= reads.lowered(&driving.s_tyre(driving.v));
     let after = length_after.filter(|length| !may_stand(length));
     Window { begin: driving.first(least), end: after.map(|length| driving.last(length)) }
 }

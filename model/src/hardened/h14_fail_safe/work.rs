@@ -8,7 +8,7 @@ use crate::hardened::detection_history::{Usable, confirmed, nearest_to_reference
 use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
 use crate::hardened::h14_fail_safe::motions::{Motion, origins};
 use crate::hardened::h14_fail_safe::path::{self, Place};
-use crate::hardened::h14_fail_safe::times::Driving;
+use crate::hardened::h14_fail_safe::times::{Driving, a_tyre};
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
@@ -102,7 +102,7 @@ fn extents(scene: &Scene, trajectory: &[Point]) -> [Extent; 2] {
 /// Neither along h nor across it is all that the object sweeps over until H(w) on one side of all rectangles of
 /// the path and more than 1/10 m from them.
 fn comes_near(scene: &Scene, path: &[Extent; 2], motion: &Motion) -> bool {
-    let least = motion.r_b(&scene.parameters.a_b, &motion.age);
+    let least = motion.r_b(&a_tyre(&scene.parameters.a_b), &motion.age);
     let most = &motion.speed * (&motion.age + h(scene, motion));
     let object = motion.object.rectangle();
     let moved = [least, most].map(|r| &object.frame.origin + &motion.moved_by(&r));

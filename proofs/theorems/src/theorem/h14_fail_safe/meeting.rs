@@ -14,7 +14,7 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "r_b_is_at_most_what_an_object_goes_on_and_does_not_fall",
         statement: "H-14: s <= t implies r_b(s) <= r_b(t), and r_b(t) <= abs(w) t",
-        domain: "all s, t >= 0, w, a_b > 0",
+        domain: "all s, t >= 0, w, a_tyre > 0",
         claim: || grows(|t| t),
         wrong: Wrong {
             statement: "r_b(t) <= abs(w) t / 2",
@@ -23,12 +23,12 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "an_object_that_brakes_from_any_time_on_is_between_r_b_and_going_on",
-        statement: "H-14: an object that goes on at abs(w) for any time, and then brakes with at most a_b to a stop, is \
+        statement: "H-14: an object that goes on at abs(w) for any time, and then brakes with at most a_tyre to a stop, is \
                     at each time t between r_b(t) and abs(w) t along w",
-        domain: "all times >= 0, w, a_b > 0",
+        domain: "all times >= 0, w, a_tyre > 0",
         claim: || between(&Real::from_integer(1)),
         wrong: Wrong {
-            statement: "brakes with at most 2 a_b",
+            statement: "brakes with at most 2 a_tyre",
             claim: || between(&Real::from_integer(2)),
         },
     },
@@ -58,10 +58,10 @@ fn motion() -> Motion {
     Motion { object, age: Real::zero(), speed: w.length(), w, named: Named::default() }
 }
 
-fn a_b() -> Real {
-    let a_b = Real::variable("a_b");
-    given(less(&Real::zero(), &a_b));
-    a_b
+fn a_tyre() -> Real {
+    let a_tyre = Real::variable("a_tyre");
+    given(less(&Real::zero(), &a_tyre));
+    a_tyre
 }
 
 fn time(name: &str) -> Real {
@@ -71,21 +71,21 @@ fn time(name: &str) -> Real {
 }
 
 fn grows(share: fn(Real) -> Real) -> Formula {
-    let (motion, a_b, [s, t]) = (motion(), a_b(), ["s", "t"].map(time));
+    let (motion, a_tyre, [s, t]) = (motion(), a_tyre(), ["s", "t"].map(time));
     given(at_most(&s, &t));
-    let r_b = motion.r_b(&a_b, &t);
+    let r_b = motion.r_b(&a_tyre, &t);
     Formula::All(vec![
-        at_most(&motion.r_b(&a_b, &s), &r_b),
+        at_most(&motion.r_b(&a_tyre, &s), &r_b),
         at_most(&r_b, &share(&motion.speed * &t)),
     ])
 }
 
 fn between(share: &Real) -> Formula {
-    let (motion, a_b, [before, braking]) = (motion(), a_b(), ["before", "braking"].map(time));
+    let (motion, a_tyre, [before, braking]) = (motion(), a_tyre(), ["before", "braking"].map(time));
     let brakes = Real::variable("brakes");
     given(less(&Real::zero(), &brakes));
-    given(at_most(&brakes, &(share * &a_b)));
+    given(at_most(&brakes, &(share * &a_tyre)));
     let t = &before + &braking;
     let way = &motion.speed * before + braked(&motion.speed, &brakes, &braking);
-    Formula::All(vec![at_most(&motion.r_b(&a_b, &t), &way), at_most(&way, &(&motion.speed * t))])
+    Formula::All(vec![at_most(&motion.r_b(&a_tyre, &t), &way), at_most(&way, &(&motion.speed * t))])
 }

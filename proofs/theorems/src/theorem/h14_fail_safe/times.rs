@@ -1,4 +1,4 @@
-//! H-14: whatever the CAV does until it brakes, except braking harder than a_b, it has driven as
+//! H-14: whatever the CAV does until it brakes, with at most a_tyre, it has driven as
 //! far as a place of its path between `first` and `last`
 //! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any
 //! acceleration that it can have; what holds of all of them is kept by each, an induction that is
@@ -29,11 +29,11 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "last_is_when_a_CAV_that_brakes_at_once_is_there",
-        statement: "H-14: braking at once with a_b the CAV is at last(f) at f, and last(f) <= T",
-        domain: "all 0 <= f <= s_b(v), v, tau >= 0, a_max, a_b > 0",
-        claim: || is_there_last(Cav::s_b),
+        statement: "H-14: braking at once with a_tyre the CAV is at last(f) at f, and last(f) <= T",
+        domain: "all 0 <= f <= s_tyre(v), v, tau >= 0, a_max, a_b > 0",
+        claim: || is_there_last(Cav::s_tyre),
         wrong: Wrong {
-            statement: "also between s_b(v) and s_stop",
+            statement: "also between s_tyre(v) and s_stop",
             claim: || is_there_last(Cav::s_stop),
         },
     },
@@ -59,15 +59,15 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "first_is_not_after_last",
-        statement: "H-14: first(f) <= last(f) for f < s_b(v)",
-        domain: "all 0 <= f < s_b(v), v, tau >= 0, a_max, a_b > 0",
+        statement: "H-14: first(f) <= last(f) for f < s_tyre(v)",
+        domain: "all 0 <= f < s_tyre(v), v, tau >= 0, a_max, a_b > 0",
         claim: || first_and_last(at_most),
         wrong: Wrong { statement: "first(f) < last(f)", claim: || first_and_last(less) },
     },
     Theorem {
         id: "what_a_CAV_can_have_done_is_kept_by_any_acceleration",
         statement: "H-14: speed and way are at most those of speeding up with a_max, at least those of braking \
-                    with a_b, and they still are after any time of an acceleration from -a_b to a_max",
+                    with a_tyre, and they still are after any time of an acceleration from -a_tyre to a_max",
         domain: "all times, v >= 0, a_max, a_b > 0; the CAV does not go backwards",
         claim: || pieces(&Real::from_integer(1)),
         wrong: Wrong {
@@ -85,10 +85,10 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "no_CAV_is_anywhere_after_last",
-        statement: "H-14: whatever it does, except braking harder than a_b, while the CAV is at a way f < s_b(v) it is not \
+        statement: "H-14: whatever it does, while the CAV is at a way f < s_tyre(v) it is not \
                     after last(f)",
         domain: DOMAIN,
-        claim: || after_last(Cav::s_b),
+        claim: || after_last(Cav::s_tyre),
         wrong: Wrong { statement: "f < s_stop", claim: || after_last(Cav::s_stop) },
     },
     Theorem {
@@ -174,8 +174,8 @@ impl Cav {
         self.driving().s_stop()
     }
 
-    fn s_b(&self) -> Real {
-        self.driving().s_b()
+    fn s_tyre(&self) -> Real {
+        self.driving().s_tyre(&self.v)
     }
 
     /// Speeding up with a_max for tau, then braking with a_b to a stop.
@@ -196,9 +196,9 @@ pub fn driven(v: &Real, a: &Real, t: &Real) -> Real {
     v * t + a * t.square() / Real::from_integer(2)
 }
 
-/// Distance driven in the time t of braking with a_b to a stop, m.
-pub fn braked(v: &Real, a_b: &Real, t: &Real) -> Real {
-    if a_b * t <= *v { driven(v, &-a_b, t) } else { s_b(v, a_b) }
+/// Distance driven in the time t of braking with a to a stop, m.
+pub fn braked(v: &Real, a: &Real, t: &Real) -> Real {
+    if a * t <= *v { driven(v, &-a, t) } else { s_b(v, a) }
 }
 
 fn way(name: &str) -> Real {
@@ -224,7 +224,7 @@ fn is_there_first(end: fn(&Cav) -> Real) -> Formula {
 }
 
 fn is_there_last(end: fn(&Cav) -> Real) -> Formula {
-    is_there(end, Cav::last, |cav, t| braked(&cav.v, &cav.a_b, t))
+    is_there(end, Cav::last, |cav, t| braked(&cav.v, &cav.driving().a_tyre(), t))
 }
 
 fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
@@ -235,7 +235,7 @@ fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
 
 fn first_and_last(order: fn(&Real, &Real) -> Formula) -> Formula {
     let (cav, f) = (Cav::any(), way("f"));
-    given(less(&f, &cav.s_b()));
+    given(less(&f, &cav.s_tyre()));
     order(&cav.first(&f), &cav.last(&f))
 }
 
@@ -244,7 +244,8 @@ pub struct Done {
     t: Real,
     /// m.
     pub way: Real,
-    u: Real,
+    /// m/s.
+    pub u: Real,
 }
 
 /// Any that what every piece of its way keeps holds of.
@@ -264,13 +265,14 @@ fn done_before_tau() -> (Cav, Done) {
     (cav, done)
 }
 
-/// Speed and way are at most those of speeding up with a_max, at least those of braking with a_b.
+/// Speed and way are at most those of speeding up with a_max, at least those of braking with a_tyre.
 fn can_be(cav: &Cav, Done { t, way, u }: &Done) -> Formula {
+    let a_tyre = cav.driving().a_tyre();
     Formula::All(vec![
         at_most(&Real::zero(), u),
-        at_most(&(&cav.v - &cav.a_b * t), u),
+        at_most(&(&cav.v - &a_tyre * t), u),
         at_most(u, &(&cav.v + &cav.a_max * t)),
-        at_most(&braked(&cav.v, &cav.a_b, t), way),
+        at_most(&braked(&cav.v, &a_tyre, t), way),
         at_most(way, &driven(&cav.v, &cav.a_max, t)),
     ])
 }
@@ -286,7 +288,7 @@ fn after(Done { t, way, u }: &Done, a: &Real, dt: &Real) -> Done {
 fn pieces(share: &Real) -> Formula {
     let (cav, done) = done();
     let [a, dt] = ["a", "dt"].map(Real::variable);
-    given(at_most(&-&cav.a_b, &a));
+    given(at_most(&-&cav.driving().a_tyre(), &a));
     given(at_most(&a, &(share * &cav.a_max)));
     can_be(&cav, &after(&done, &a, &dt))
 }
@@ -327,7 +329,7 @@ fn in_window(beyond: &Real) -> Formula {
     let Window { begin, end } = window(&reads, &driving, &least, Some(&after));
     let begins = at_most(&begin, &cav.first(&f));
     let ends = end.map_or(Formula::Known(true), |end| {
-        Formula::All(vec![less(&g, &cav.s_b()), at_most(&cav.last(&g), &end)])
+        Formula::All(vec![less(&g, &cav.s_tyre()), at_most(&cav.last(&g), &end)])
     });
     Formula::All(vec![begins, ends])
 }

@@ -44,10 +44,10 @@ fn row(number: usize, event: &str, numbers: [&Real; 5]) {
     }
 }
 
-/// A vehicle that goes on at one acceleration from -a_b to `most`: its speed after dt, and its way.
+/// A vehicle that goes on at one acceleration from -a_tyre to `most`: its speed after dt, and its way.
 fn piece(limits: &Limits, v: &Real, most: &Real, dt: &Real) -> (Real, Real) {
     let a = Real::variable("a");
-    given(at_most(&-&limits.a_b, &a));
+    given(at_most(&-limits.a_tyre(), &a));
     given(at_most(&a, most));
     let after = v + &a * dt;
     given(at_most(&Real::zero(), &after));
@@ -87,7 +87,7 @@ pub fn stands_before(events: &Events, ahead: Ahead, centimetres: i64) -> Formula
     let (last, _) = events[events.len() - 1];
     let way = s_b(&v, &limits.a_b);
     let time = Real::ratio(last, 100) + &v / &limits.a_b;
-    let rest = gap + s_b(&w, &limits.a_b) - &way;
+    let rest = gap + s_b(&w, &limits.a_tyre()) - &way;
     let zero = Real::zero();
     row(events.len(), "stands", [&time, &(place + way), &zero, &rest, &zero]);
     less(&Real::ratio(centimetres, 100), &rest)

@@ -17,7 +17,7 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_gap_of_a_CAV_that_passes_H-04_is_that_of_the_stop_invariant",
         statement: "H-04.2: where stage iv is silent the rule passes exactly when the stop invariant holds: the gap is above 0, and \
-                    gap + s_b(v_lead) above s_stop",
+                    gap + s_tyre(v_lead) above s_stop",
         domain: "all gaps, v_now, v_lead, tau >= 0, a_max, a_b > 0; gap and speed of the lead are those of now",
         claim: || gap(0),
         wrong: Wrong { statement: "with tau 1 cs longer", claim: || gap(1) },
@@ -25,7 +25,7 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "every_transition_keeps_the_stop_invariant_of_a_lead",
         statement: "F-04: going on until brake_by, braking, a cycle that measures, passes, fails or is lost, a fallback, \
-                    and a return to remote, while the lead brakes with at most a_b, keep: s_react(v, time left until brake_by, v_lead) < gap",
+                    and a return to remote, while the lead brakes with at most a_tyre, keep: s_react(v, time left until brake_by, v_lead) < gap",
         domain: DOMAIN,
         claim: || every_step_keeps(Ahead::Lead),
         wrong: Wrong {

@@ -1,7 +1,7 @@
 //! What the CAV and a lead may do in a motion, the stop invariant, and the lemmas: no motion breaks it.
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::h14_fail_safe::times::Driving;
+use crate::hardened::h14_fail_safe::times::{Driving, a_tyre};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{
     Formula, at_most, equal, forget_of_what_products_are, given, implies, less,
@@ -59,15 +59,15 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "the_stopping_place_of_a_lead_never_moves_back",
-        statement: "A-09: after any motion of a lead with at most a_b, way + s_b(speed after it) >= s_b(w)",
+        statement: "A-09: after any motion of a lead with at most a_tyre, way + s_tyre(speed after it) >= s_tyre(w)",
         domain: DOMAIN,
         claim: || lead_stops(1),
-        wrong: Wrong { statement: "with at most 2 a_b", claim: || lead_stops(2) },
+        wrong: Wrong { statement: "with at most 2 a_tyre", claim: || lead_stops(2) },
     },
     Theorem {
         id: "a_lead_is_not_reached_within_a_motion_that_keeps_the_stop_invariant",
         statement: "F-04: if the invariant holds, no motion that goes on until brake_by, and none that brakes from then on, reaches a lead \
-                    that brakes with at most a_b",
+                    that brakes with at most a_tyre",
         domain: DOMAIN,
         claim: || lead_is_not_reached(&Real::zero()),
         wrong: Wrong {
@@ -115,7 +115,7 @@ pub struct Examined {
 pub enum Ahead {
     /// Something that stands.
     Standing,
-    /// A lead that brakes with at most a_b (A-09).
+    /// A lead that brakes with at most a_tyre (A-09).
     Lead,
 }
 
@@ -150,6 +150,11 @@ impl Limits {
         Driving { v, tau: left, a_max: &self.a_max, a_b: &self.a_b }.s_stop()
     }
 
+    /// How hard tyres hold, m/s^2.
+    pub fn a_tyre(&self) -> Real {
+        a_tyre(&self.a_b)
+    }
+
     /// The invariant: what is ahead is not reached, and would stand beyond the place where the CAV stands that speeds
     /// up until `brake_by` and then brakes. That is gap > s_react with the time left in the place of tau,
     /// and gap > s_stop where w = 0.
@@ -157,7 +162,7 @@ impl Limits {
         Formula::All(vec![
             at_most(&Real::zero(), left),
             less(&Real::zero(), gap),
-            less(&self.s_stop(v, left), &(gap + s_b(w, &self.a_b))),
+            less(&self.s_stop(v, left), &(gap + s_b(w, &self.a_tyre()))),
         ])
     }
 
@@ -203,18 +208,19 @@ impl Limits {
         implies(self.is_dutiful(v, left, motion, duty), Formula::All(conclusions))
     }
 
-    /// A-09: at no time more than so many times a_b.
+    /// A-09: at no time more than so many times a_tyre.
     fn is_of_lead(&self, w: &Real, Motion { dt, way, speed }: &Motion, times: i128) -> Formula {
-        let a_b = Real::from_integer(times) * &self.a_b;
-        let braked = w - &a_b * dt;
-        let goes = vec![at_most(&driven(w, &-&a_b, dt), way), at_most(&braked, speed)];
-        let stopped = s_b(w, &a_b);
+        let a = Real::from_integer(times) * self.a_tyre();
+        let braked = w - &a * dt;
+        let goes = vec![at_most(&driven(w, &-&a, dt), way), at_most(&braked, speed)];
+        let stopped = s_b(w, &a);
         by_standstill(&braked, goes, vec![at_most(&stopped, way)])
     }
 
     fn lead_keeps(&self, w: &Real, motion: &Motion, times: i128) -> Formula {
-        let stops = &motion.way + s_b(&motion.speed, &self.a_b);
-        implies(self.is_of_lead(w, motion, times), at_most(&s_b(w, &self.a_b), &stops))
+        let a_tyre = self.a_tyre();
+        let stops = &motion.way + s_b(&motion.speed, &a_tyre);
+        implies(self.is_of_lead(w, motion, times), at_most(&s_b(w, &a_tyre), &stops))
     }
 
     /// A lead ahead is farther than `least` after a dutiful motion of the CAV.
