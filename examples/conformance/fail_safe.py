@@ -13,7 +13,7 @@ from functools import cached_property
 from beside import Beside
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach
-from stopping import Stop, between, cross, displacement, dot
+from stopping import Stop, a_tyre, between, cross, displacement, dot
 
 
 @dataclass
@@ -99,6 +99,7 @@ class Motion:
         self.ego, parameters = cycle["ego"], cycle["parameters"]
         self.item = {**item, "x": item["x"] - self.ego["x"], "y": item["y"] - self.ego["y"]}
         self.age_ns, self.a_b = cycle["now_ns"] - stamp_ns, parameters["a_b"]
+        self.a_tyre = a_tyre(parameters)
         self.age, self.source = self.age_ns / S, item
         self.w, velocity = w, [float(part) for part in w]
         self.speed = math.hypot(*velocity)
@@ -108,9 +109,9 @@ class Motion:
         self.now = {"x": 0.0, "y": 0.0, "cos": self.ego["cos"], "sin": self.ego["sin"]}
 
     def braked(self, t):
-        """How far the object goes in a time when it brakes."""
-        t = min(t, self.speed / self.a_b)
-        return self.speed * t - self.a_b * t * t / 2
+        """How far the object goes in a time when it brakes as hard as tyres hold."""
+        t = min(t, self.speed / self.a_tyre)
+        return self.speed * t - self.a_tyre * t * t / 2
 
     def meets(self, cav, pose, t1, t2):
         """Whether it sweeps over the CAV, of some length and width, at a place from t1 to t2."""
@@ -194,7 +195,7 @@ class FailSafe:
         for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
             f, far = self.from_line(x, y)
             if f < self.stop.s_b and (
-                    far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
+                    far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.braking(self.stop.a_b, f)**2 - EPS):
                 return False
         if self.places[-1].length > greatest_length(self.stop.s_stop) - EPS:
             return False
@@ -212,7 +213,7 @@ class FailSafe:
         for before, place, after in zip(befores, self.places, afters):
             least = min(it.progress for it in (before, place, after) if it is not None)
             begins = self.stop.first(max(least, 0))
-            moves_on = after is not None and after.length < self.stop.s_b
+            moves_on = after is not None and after.length < self.stop.s_tyre
             yield place.pose, begins, self.stop.last(after.length) if moves_on else None
 
     @cached_property

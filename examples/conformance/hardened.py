@@ -7,7 +7,7 @@ from detection_history import Seen, gap
 from fail_safe import FailSafe
 from geometry import EPS, assignment_cost, distance
 from hardened_ii import stage_ii
-from paper import current, gated, s_b, stage_iii, stage_iv, too_much_work
+from paper import current, gated, stage_iii, stage_iv, too_much_work
 from road import on_the_road
 
 
@@ -47,7 +47,7 @@ def gap_is_kept(cycle, rule):
     """H-04: the CAV can stop behind a lead that brakes."""
     if not (lead := cycle["lead"]):
         return True
-    s_react = max(float(rule.stop.s_stop) - s_b(cycle, lead["speed"]), 0.0)
+    s_react = max(float(rule.stop.s_stop) - lead["speed"]**2 / (2 * float(rule.stop.a_tyre)), 0.0)
     return lead["gap"] > s_react + EPS
 
 

@@ -28,8 +28,18 @@ def displacement(a, b):
     return Fraction(b["x"]) - Fraction(a["x"]), Fraction(b["y"]) - Fraction(a["y"])
 
 
+def a_tyre(parameters):
+    """What tyres hold: no vehicle brakes harder."""
+    return max(parameters["a_b"], 11.5)
+
+
+def still_braking(a, rest):
+    """How long what brakes with a still moves when it has so far to go."""
+    return math.sqrt(2 * max(rest, 0) / a)
+
+
 class Stop:
-    """Going on for tau at most, speeding up with a_max, then braking with a_b."""
+    """Going on for tau at most, speeding up with a_max, then braking with a_b, or harder."""
 
     def __init__(self, cycle):
         parameters = cycle["parameters"]
@@ -39,18 +49,20 @@ class Stop:
         self.s_tau = v * tau + self.a_max * tau**2 / 2
         self.s_stop = self.s_tau + v_tau**2 / (2 * self.a_b)
         self.s_b = v**2 / (2 * self.a_b)
+        self.a_tyre = Fraction(a_tyre(parameters))
+        self.s_tyre = v**2 / (2 * self.a_tyre)
         self.T = float(tau + v_tau / self.a_b)
 
-    def braking(self, rest):
-        """How long the CAV still brakes when it has so far to go."""
-        return math.sqrt(2 * max(rest, 0) / self.a_b)
+    def braking(self, a, f):
+        """When the CAV has driven f, braking with a at once."""
+        return float(self.v / a) - still_braking(a, self.v**2 / (2 * a) - f)
 
     def first(self, f):
         """The earliest time at which it can have driven f."""
         if f > self.s_tau:
-            return self.T - self.braking(self.s_stop - f)
+            return self.T - still_braking(self.a_b, self.s_stop - f)
         return (math.sqrt(self.v**2 + 2 * self.a_max * f) - float(self.v)) / float(self.a_max)
 
     def last(self, f):
-        """The latest time at which it has driven no more than f, below s_b."""
-        return float(self.v / self.a_b) - self.braking(self.s_b - f)
+        """The latest time at which it has driven no more than f, below s_tyre."""
+        return self.braking(self.a_tyre, f)

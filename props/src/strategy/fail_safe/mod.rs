@@ -181,14 +181,11 @@ impl Aim<'_> {
         let last = self.path.places.len() - 1;
         let k = if draw.one_in(2) { last } else { draw.below(last + 1) };
         let (at, e) = self.corridor(draw, k, 1.0);
-        let (a_b, t) = (self.cycle.parameters.a_b, self.age + self.path.begin(k));
-        let speed = draw.pick(&[8.0, 25.0, 3.0, a_b * t, 0.5]).min(100.0);
+        let (a, t) = (self.path.a_tyre(), self.age + self.path.begin(k));
+        let speed = draw.pick(&[8.0, 25.0, 3.0, a * t, 0.5]).min(100.0);
         let speed = draw.near(speed).max(0.0);
-        let braked = if a_b * t <= speed {
-            speed * t - 0.5 * a_b * t * t
-        } else {
-            speed * speed / (2.0 * a_b)
-        };
+        let braked =
+            if a * t <= speed { speed * t - 0.5 * a * t * t } else { speed * speed / (2.0 * a) };
         let met = self.path.body(self.cycle, k).met_by(&self.at(at), e);
         let (_, by) = met.unwrap_or((0.0, 0.0));
         let by = draw.near(by);
@@ -325,7 +322,7 @@ fn at_the_stop(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let from = aim.path.body(cycle, k).met_by(&aim.at(at), e).map_or(0.0, |(from, _)| from);
     let reached = (at.0 + from * e.0, at.1 + from * e.1);
     // After it would have passed, before it surely stands: whoever comes across is not examined longer.
-    let arrives = 0.5 * (aim.path.last(aim.path.s_b()) + aim.path.t_stop());
+    let arrives = 0.5 * (aim.path.last(aim.path.s_tyre()) + aim.path.t_stop());
     aim.found(reached, e, speed * (aim.age + arrives), speed).aged(age_ns)
 }
 

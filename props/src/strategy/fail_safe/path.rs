@@ -67,7 +67,8 @@ pub struct Path {
     v: f64,
     tau: f64,
     a_max: f64,
-    a_b: f64,
+    /// m/s^2.
+    pub a_b: f64,
     t_yield: f64,
     a_yield: f64,
 }
@@ -87,6 +88,16 @@ impl Path {
     /// `s_b(v)`, m.
     pub fn s_b(&self) -> f64 {
         self.v * self.v / (2.0 * self.a_b)
+    }
+
+    /// What tyres hold, m/s^2.
+    pub fn a_tyre(&self) -> f64 {
+        self.a_b.max(11.5)
+    }
+
+    /// `s_tyre(v)`, m.
+    pub fn s_tyre(&self) -> f64 {
+        self.v * self.v / (2.0 * self.a_tyre())
     }
 
     /// T, s.
@@ -110,9 +121,14 @@ impl Path {
         self.tau + (v_tau - squared.max(0.0).sqrt()) / self.a_b
     }
 
-    /// The latest time at f below `s_b(v)`, s.
+    /// The latest time at f below `s_tyre(v)`, s.
     pub fn last(&self, f: f64) -> f64 {
-        (self.v - (self.v * self.v - 2.0 * self.a_b * f).max(0.0).sqrt()) / self.a_b
+        self.braking_with(self.a_tyre(), f)
+    }
+
+    /// When the CAV is at f, braking with a, s.
+    pub fn braking_with(&self, a: f64, f: f64) -> f64 {
+        (self.v - (self.v * self.v - 2.0 * a * f).max(0.0).sqrt()) / a
     }
 
     /// When the window of a place begins, s.
@@ -124,7 +140,7 @@ impl Path {
     /// When it ends, s, if the CAV may not stand there.
     pub fn end(&self, k: usize) -> Option<f64> {
         let after = self.places.get(k + 1).map(|place| place.length)?;
-        (after < self.s_b()).then(|| self.last(after))
+        (after < self.s_tyre()).then(|| self.last(after))
     }
 
     /// The CAV at a place.

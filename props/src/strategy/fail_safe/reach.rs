@@ -54,7 +54,8 @@ pub fn cycle(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
         return;
     }
-    let bound = |f: f64| 0.5 + 0.17 * f + 5.75 * path.last(f.min(path.s_b())).powi(2);
+    let bound =
+        |f: f64| 0.5 + 0.17 * f + 5.75 * path.braking_with(path.a_b, f.min(path.s_b())).powi(2);
     let (first, aside) = match draw.below(4) {
         // Ahead by 1/8 m: too far aside for that, or for nothing else.
         0 => (draw.near(0.125), draw.pick(&[0.57, 0.3])),
