@@ -203,6 +203,11 @@ pub struct Obstacle {
     pub away: (f64, f64),
 }
 
+/// How hard tyres hold, m/s^2 (H-14.10).
+pub fn a_tyre(parameters: &Parameters) -> f64 {
+    parameters.a_b.max(11.5)
+}
+
 /// `s_stop` of a trajectory that starts at the CAV, rounded, m.
 pub fn s_stop(cycle: &Cycle) -> f64 {
     let (p, v) = (&cycle.parameters, cycle.ego.speed);

@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Profile, TrajectoryPoint};
 
-use super::base::{self, Frame, Obstacle, s_stop, to_ns};
+use super::base::{self, Frame, Obstacle, a_tyre, s_stop, to_ns};
 use super::draw::Draw;
 use super::end;
 
@@ -180,7 +180,7 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
 /// `s_react`, rounded, m; the lead counts as standing when there is none.
 pub fn s_react(cycle: &Cycle) -> f64 {
     let lead = cycle.lead.as_ref().map_or(0.0, |lead| lead.speed);
-    (s_stop(cycle) - lead * lead / (2.0 * cycle.parameters.a_b.max(11.5))).max(0.0)
+    (s_stop(cycle) - lead * lead / (2.0 * a_tyre(&cycle.parameters))).max(0.0)
 }
 
 /// The object at a place of the CAV's rectangle's frame.

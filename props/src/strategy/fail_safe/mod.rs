@@ -12,7 +12,7 @@ use mufasa_model::input::cycle::{
 use mufasa_model::services::configuration::Configuration;
 
 use self::path::{Body, Path, dot};
-use super::base::{self, Frame, seconds};
+use super::base::{self, Frame, a_tyre, seconds};
 use super::draw::Draw;
 use super::moving::{self, Aimed, detection};
 use super::obstacle;
@@ -181,7 +181,7 @@ impl Aim<'_> {
         let last = self.path.places.len() - 1;
         let k = if draw.one_in(2) { last } else { draw.below(last + 1) };
         let (at, e) = self.corridor(draw, k, 1.0);
-        let (a, t) = (self.path.a_tyre(), self.age + self.path.begin(k));
+        let (a, t) = (a_tyre(&self.cycle.parameters), self.age + self.path.begin(k));
         let speed = draw.pick(&[8.0, 25.0, 3.0, a * t, 0.5]).min(100.0);
         let speed = draw.near(speed).max(0.0);
         let braked =
@@ -302,12 +302,12 @@ fn along_at(distance: f64) -> f64 {
     (0.05 + distance / 30.0).min(1.0)
 }
 
-/// One place has a way of `s_b(v)`, nearly, and who arrives there before it can stop does so only where the
+/// One place has a way of `s_tyre(v)`, nearly, and who arrives there before it can stop does so only where the
 /// CAV may stand.
 fn at_the_stop(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let k = draw.between(1, 12);
     let d = cycle.ego.length.min(0.25);
-    cycle.ego.speed = draw.near((2.0 * cycle.parameters.a_b * d * k as f64).sqrt());
+    cycle.ego.speed = draw.near((2.0 * a_tyre(&cycle.parameters) * d * k as f64).sqrt());
     for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points).skip(1) {
         point.t_ns += 1;
     }

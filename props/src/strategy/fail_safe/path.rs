@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::Cycle;
 
-use super::super::base::{self, Frame};
+use super::super::base::{self, Frame, a_tyre};
 
 /// More places than any aim needs.
 const MOST: usize = 4_000;
@@ -69,6 +69,7 @@ pub struct Path {
     a_max: f64,
     /// m/s^2.
     pub a_b: f64,
+    a_tyre: f64,
     t_yield: f64,
     a_yield: f64,
 }
@@ -82,7 +83,17 @@ impl Path {
             first.map_or(0.0, |it| ((ego.x - it.x) * it.sin - (ego.y - it.y) * it.cos).abs());
         let (v, tau, a_max, a_b) = (ego.speed, p.tau, p.a_max, p.a_b);
         let (t_yield, a_yield) = (p.t_yield, p.a_yield);
-        Self { places: places(cycle), aside, v, tau, a_max, a_b, t_yield, a_yield }
+        Self {
+            places: places(cycle),
+            aside,
+            v,
+            tau,
+            a_max,
+            a_b,
+            a_tyre: a_tyre(p),
+            t_yield,
+            a_yield,
+        }
     }
 
     /// `s_b(v)`, m.
@@ -90,14 +101,9 @@ impl Path {
         self.v * self.v / (2.0 * self.a_b)
     }
 
-    /// What tyres hold, m/s^2.
-    pub fn a_tyre(&self) -> f64 {
-        self.a_b.max(11.5)
-    }
-
     /// `s_tyre(v)`, m.
     pub fn s_tyre(&self) -> f64 {
-        self.v * self.v / (2.0 * self.a_tyre())
+        self.v * self.v / (2.0 * self.a_tyre)
     }
 
     /// T, s.
@@ -123,7 +129,7 @@ impl Path {
 
     /// The latest time at f below `s_tyre(v)`, s.
     pub fn last(&self, f: f64) -> f64 {
-        self.braking_with(self.a_tyre(), f)
+        self.braking_with(self.a_tyre, f)
     }
 
     /// When the CAV is at f, braking with a, s.
