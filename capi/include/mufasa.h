@@ -1030,7 +1030,7 @@ typedef struct MufasaDecision {
   // profile, the CAV has current detections: that of the station, or while MOT alone is remote that of the CAV's own
   // planner; else null.
   const struct MufasaTrajectory *trajectory;
-  // By when control has to brake along the trajectory, with `a_b`, unless a later cycle has given one or, except while MOT
+  // By when control has to brake along the trajectory, with at least `a_b`, unless a later cycle has given one or, except while MOT
   // alone is remote, there is a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
   // the paper profile.
   struct MufasaTime brake_by;

@@ -117,7 +117,7 @@ impl<T> Verified<'_, T> {
 }
 
 impl Verified<'_, Trajectory<'_>> {
-    /// The time by which control has to brake along it, with `a_b`, unless a later cycle has given a
+    /// The time by which control has to brake along it, with at least `a_b`, unless a later cycle has given a
     /// trajectory or, except in MotRemote, there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
     /// covers no more (H-14), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
     /// the paper profile, which has no `tau`. Source: `spec/monitor.md#monitor`.
