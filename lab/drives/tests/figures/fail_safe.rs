@@ -102,7 +102,7 @@ pub fn windows() -> String {
         pen.words([s_tyre, 0.0], [0.0, 24.0], "m", "s_tyre(v)");
         pen.line(&[[s_stop, -0.04], [s_stop, 1.5]], "limit");
         pen.words([s_stop, 0.0], [0.0, 24.0], "m", "s_stop");
-        pen.words([3.1, 0.7], [0.0, -8.0], "e", "last(f)");
+        pen.words([1.9, 0.5], [0.0, -8.0], "e", "last(f)");
         pen.words([4.4, 0.6], [0.0, 34.0], "", "first(f)");
         pen.words([s_tyre - 0.25, 1.35], [-16.0, 0.0], "e", "the CAV may stand");
     });
