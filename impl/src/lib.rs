@@ -132,8 +132,8 @@
 //!   otherwise. Where there is none of these by the `brake_by` of the last verified one, control brakes along
 //!   it with at least `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
-//! * A verdict is as good as the method: ten findings are open in the hardened profile
-//!   (`findings/README.md`). Nothing here is certified.
+//! * A verdict is as good as the method: some findings are open in the hardened profile
+//!   (`docs/known-problems.md`). Nothing here is certified.
 //!
 //! # Where things are
 //!

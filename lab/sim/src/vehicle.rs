@@ -2,7 +2,7 @@
 
 use crate::pose::{Pose, Rectangle};
 
-/// The CAV's hardest braking, m/s^2.
+/// The hardest braking of this simulated CAV, and its `a_b`, m/s^2.
 pub const A_B: f64 = 8.0;
 /// `tau` as A-07 of `docs/assumptions.md` asks for it here, s: 0.1 until the next cycle, 0.04 until it is decided, 0.1
 /// until the CAV's own planner answers.

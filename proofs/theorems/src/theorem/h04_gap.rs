@@ -40,10 +40,12 @@ pub const THEOREMS: &[Theorem] = &[
             Formula::All(vec![stops_sooner(&cav, &w, &cav.v), stops_where_it_would(&cav, &w, &t)])
         },
         wrong: Wrong {
-            statement: "whatever w and u",
+            statement: "s_tyre(v_lead) is left of it whatever it has gone",
             claim: || {
-                let (cav, w, _) = behind();
-                stops_sooner(&cav, &w, &cav.v)
+                let (cav, w, t) = behind();
+                let (gone, stops) =
+                    (braked(&w, &cav.driving().a_tyre(), &t), cav.driving().s_tyre(&w));
+                equal(&(gone + &stops), &stops)
             },
         },
     },

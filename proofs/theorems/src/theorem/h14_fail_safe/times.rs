@@ -2,13 +2,13 @@
 //! far as a place of its path between `first` and `last`
 //! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any
 //! acceleration that it can have; what holds of all of them is kept by each, an induction that is
-//! not part of the theorems.
+//! not part of the theorems. Nor is it that a CAV that brakes harder after that is nowhere sooner.
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
+use crate::hardened::h14_fail_safe::times::{Driving, Window, a_tyre, window};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
+use crate::numbers::real::formula::{Formula, at_most, equal, given, less, not};
 use crate::stages::distances::s_b;
 use crate::theorem::base::any_cav;
 
@@ -25,6 +25,21 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "also 1 m behind s_stop",
             claim: || is_there_first(|cav| cav.s_stop() + Real::from_integer(1)),
+        },
+    },
+    Theorem {
+        id: "a_tyre_is_at_least_what_tyres_hold",
+        statement: "H-14: a_tyre is at least 11.5 m/s^2 and at least a_b, and one of the two",
+        domain: "all a_b > 0",
+        claim: || {
+            let Cav { a_b, .. } = Cav::any();
+            let (a, held) = (a_tyre(&a_b), Real::ratio(23, 2));
+            let is_one = not(Formula::All(vec![less(&held, &a), less(&a_b, &a)]));
+            Formula::All(vec![at_most(&held, &a), at_most(&a_b, &a), is_one])
+        },
+        wrong: Wrong {
+            statement: "at most 11.5 m/s^2",
+            claim: || at_most(&a_tyre(&Cav::any().a_b), &Real::ratio(23, 2)),
         },
     },
     Theorem {
@@ -107,6 +122,22 @@ pub const THEOREMS: &[Theorem] = &[
             claim: || {
                 let (cav, done) = done();
                 kept(&cav, &done)
+            },
+        },
+    },
+    Theorem {
+        id: "the_fastest_CAV_keeps_the_stop_invariant",
+        statement: "H-14: speeding up with a_max for tau and then braking with a_b, way + s_b(speed) <= s_stop at each time",
+        domain: "all times, v, tau >= 0, a_max, a_b > 0",
+        claim: || {
+            let (cav, t) = (Cav::any(), way("t"));
+            kept(&cav, &cav.fastest(&t))
+        },
+        wrong: Wrong {
+            statement: "with s_b(v) in place of s_b(speed)",
+            claim: || {
+                let (cav, t) = (Cav::any(), way("t"));
+                kept(&cav, &Done { u: cav.v.clone(), ..cav.fastest(&t) })
             },
         },
     },

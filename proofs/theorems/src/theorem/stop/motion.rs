@@ -69,10 +69,10 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "F-04: if the invariant holds, no motion that goes on until brake_by, and none that brakes from then on, reaches a lead \
                     that brakes with at most a_tyre",
         domain: DOMAIN,
-        claim: || lead_is_not_reached(&Real::zero()),
+        claim: || lead_is_not_reached(&[Duty::GoesOn, Duty::Brakes], &Real::zero()),
         wrong: Wrong {
-            statement: "comes nearer than 1 cm",
-            claim: || lead_is_not_reached(&Real::ratio(1, 100)),
+            statement: "braking it comes no nearer than 1 cm",
+            claim: || lead_is_not_reached(&[Duty::Brakes], &Real::ratio(1, 100)),
         },
     },
 ];
@@ -267,13 +267,13 @@ fn lead_stops(times: i128) -> Formula {
     limits.lead_keeps(&w, &Motion::any(&dt), times)
 }
 
-fn lead_is_not_reached(least: &Real) -> Formula {
+fn lead_is_not_reached(duties: &[Duty], least: &Real) -> Formula {
     let limits = Limits::any();
     let [v, left, dt] = ["v", "left", "dt"].map(at_least_zero);
     let examined = Examined::any(left, Ahead::Lead);
     let [of_cav, of_lead] = [Motion::any(&dt), Motion::any(&dt)];
     let Limits { a_max, a_b, .. } = limits.clone();
-    let duty = [Duty::GoesOn, Duty::Brakes][one_of(2)];
+    let duty = duties[one_of(duties.len())];
     if duty == Duty::GoesOn {
         forget_of_what_products_are();
     }
