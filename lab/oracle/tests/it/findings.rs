@@ -204,8 +204,9 @@ fn a_vehicle_that_brakes_harder_meets_who_one_that_brakes_with_a_b_lets_pass() {
     ] {
         let line = lines.lines().find(|it| it.contains(&format!("\"id\": \"{id}\"")));
         let vector: serde_json::Value = serde_json::from_str(line.expect(id)).expect("JSON");
-        let number =
-            |path: &str| vector["input"].pointer(path).and_then(|it| it.as_f64()).expect(path);
+        let number = |path: &str| {
+            vector["input"].pointer(path).and_then(serde_json::Value::as_f64).expect(path)
+        };
         let (v, w) = (number("/ego/speed"), number("/tracks/items/0/vy"));
         let meets = |[cav, car]: [f64; 2], ms: u32| {
             let t = f64::from(ms) / 1000.0;
