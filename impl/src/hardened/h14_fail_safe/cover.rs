@@ -4,12 +4,14 @@
 //! Plain doubles. Places count from the CAV's reference point and are below 2^26 m, so that with less than
 //! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
 
+use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::nodes::{Line, Nodes};
 use crate::hardened::h14_fail_safe::times::{Times, a_tyre};
 use crate::input::cycle::{Cycle, Ego};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{EMPTY, extend, larger, smaller};
 use crate::numbers::rounding::Real;
+use crate::numbers::time::seconds;
 use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
 
 /// More than plain doubles err, m.
@@ -26,7 +28,7 @@ pub(super) struct Clock {
     pub(super) times: Times<f64>,
     /// tau + `t_yield`
     yields: f64,
-    /// 1 / (2 `a_yield`), 1 / (2 `a_tyre`)
+    /// 1 / (2 `a_yield`), 1 / `a_tyre`
     yielding: f64,
     braking: f64,
     a_tyre: f64,
@@ -40,7 +42,7 @@ impl Clock {
             times,
             yields: parameters.tau + parameters.t_yield,
             yielding: 0.5 / parameters.a_yield,
-            braking: 0.5 / a_tyre,
+            braking: 1.0 / a_tyre,
             a_tyre,
         }
     }
@@ -55,13 +57,14 @@ impl Clock {
         larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
-    /// After what time an object that goes on is where it is after so many seconds when it brakes:
+    /// After what time an object that goes on is where it is so many seconds after now when it brakes:
     /// `r_b` of H-14.24 is the way in that time.
-    pub(super) fn braked(&self, speed: f64, seconds: f64) -> f64 {
-        let seconds = larger(seconds, 0.0);
-        let lost = self.a_tyre * seconds;
-        // Nothing is taken from what is not smaller, so that this errs by less than 2^-50 of itself.
-        if lost < speed { seconds * (1.0 - 0.5 * (lost / speed)) } else { speed * self.braking }
+    pub(super) fn braked(&self, object: &Object, seconds: f64) -> f64 {
+        let &Object { speed, least, age, .. } = object;
+        let brakes = smaller(larger(age + seconds, 0.0), least * self.braking);
+        // No more than half is taken, so that this errs by less than 2^-50 of itself.
+        let mean = least - 0.5 * (self.a_tyre * brakes);
+        if least > 0.0 { brakes * (mean / speed) } else { 0.0 }
     }
 }
 
@@ -71,16 +74,30 @@ pub(super) struct Object {
     /// The centre from the CAV's reference point, at the time of its list.
     pub(super) at: MovingRectangle,
     pub(super) speed: f64,
+    /// `w_least`, up to 2^-49 of the speed.
+    pub(super) least: f64,
     /// Age of its list, s.
     pub(super) age: f64,
 }
 
 impl Object {
+    #[inline]
+    pub(super) fn new(ego: &Ego, motion: &Motion, clock: &Clock) -> Self {
+        let centre = minus(motion.now.centre, [ego.x, ego.y]);
+        let [x, y] = motion.now.velocity;
+        let speed = libm::sqrt(x * x + y * y);
+        // H-14.24
+        let lost = motion.from.map_or(0.0, |(_, dt_ns)| 0.5 * clock.a_tyre * seconds(dt_ns));
+        let least = larger(speed - lost, 0.0);
+        let at = MovingRectangle { centre, ..motion.now };
+        Self { at, speed, least, age: motion.age }
+    }
+
     /// The same, so far from the CAV's reference point, and standing there from now on.
     pub(super) fn standing(&self, from: Vector) -> Self {
         let centre = [from.x, from.y].map(Real::value);
         let at = MovingRectangle { centre, velocity: [0.0; 2], ..self.at };
-        Self { at, speed: 0.0, age: 0.0 }
+        Self { at, speed: 0.0, least: 0.0, age: 0.0 }
     }
 }
 
@@ -140,7 +157,7 @@ impl Cover {
     /// Whether the object certainly sweeps over no point of the box in this time.
     #[inline]
     pub(super) fn misses(&self, object: &Object, clock: &Clock) -> bool {
-        let &Object { at, speed, age } = object;
+        let &Object { at, speed, age, .. } = object;
         let until = match self.end {
             Some(end) => age + end,
             None => clock.longest(speed, age),
@@ -154,7 +171,7 @@ impl Cover {
         let [half_a, half_b] = half;
         let (along, across, [length, width]) = (along.abs(), across.abs(), seen.size);
         let [va, vb] = split(self.axis, at.velocity);
-        let from = clock.braked(speed, age + self.start);
+        let from = clock.braked(object, self.start);
         let apart = |middle: f64, rate: f64, half: f64| {
             let (one, other) = (middle + rate * from, middle + rate * until);
             smaller(one, other) > half || larger(one, other) < -half

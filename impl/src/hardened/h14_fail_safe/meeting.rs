@@ -20,7 +20,7 @@ use crate::numbers::rectangle::{Rectangle, certainly_met};
 use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
-use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
+use crate::stages::llcc::sweep::split;
 use crate::stages::llcc::{Pose, footprint, vector};
 
 /// Where an object meets the CAV: the number of the place, its progress and `s_stop` in m.
@@ -66,14 +66,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
     /// As plain doubles have it.
     #[inline]
     fn plainly(&self, motion: &Motion) -> Object {
-        let ego = &self.cycle().ego;
-        let centre = minus(motion.now.centre, [ego.x, ego.y]);
-        let [x, y] = motion.now.velocity;
-        Object {
-            at: MovingRectangle { centre, ..motion.now },
-            speed: libm::sqrt(x * x + y * y),
-            age: motion.age,
-        }
+        Object::new(&self.cycle().ego, motion, &self.clock)
     }
 
     /// All places as an object sees them, whatever its velocity.

@@ -137,12 +137,8 @@ pub fn reach() -> String {
             let limit = |side: f64| -> Vec<[f64; 2]> {
                 let ways = (0..50).map(|k| driving.s_b().near() * f64::from(k) / 50.0);
                 let limit = |f: f64| {
-                    0.5 + 0.17 * f
-                        + 5.75
-                            * driving
-                                .braking_with(driving.a_b, &Real::from_double(f))
-                                .near()
-                                .powi(2)
+                    let t = driving.braking_with(driving.a_b, &Real::from_double(f)).near();
+                    0.5 + 0.17 * f + 5.75 * t * t
                 };
                 ways.map(|f| [f, side * limit(f)]).collect()
             };

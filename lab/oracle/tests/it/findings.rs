@@ -192,15 +192,19 @@ fn is_safe(cycle: &Cycle) -> bool {
     report.failed_stage.is_none()
 }
 
-/// F-54: a car crosses straight on. With the second decelerations of CAV and car they meet, first at that time and speed of
-/// the CAV, and not with the first ones, of which none is above the vector's `a_b`. The CAV brakes from `begins` on, in s.
+/// F-46, F-54, F-55: a car crosses straight on. With the second decelerations of CAV and car they meet, first at that time
+/// and speed of the CAV, and not with the first ones, of which none is above the vector's `a_b`. The CAV brakes from `begins`
+/// on, in s.
 #[test]
 fn a_vehicle_that_brakes_harder_meets_who_one_that_brakes_with_a_b_lets_pass() {
-    let lines = read("vectors/findings/F-54.jsonl");
+    let lines =
+        ["F-46", "F-54", "F-55"].map(|id| read(format!("vectors/findings/{id}.jsonl"))).concat();
     for (id, begins, soft, hard, after_ms, at) in [
         ("F-54-harder", 0.0, [8.0, 0.0], [11.0, 0.0], 800, 6.2),
         ("F-54-smaller", 0.0, [4.0, 0.0], [8.0, 0.0], 900, 7.8),
         ("F-54-object", 0.1, [8.0, 8.0], [8.0, 11.0], 931, 8.4),
+        ("F-46-speeds-up", 0.0, [8.0, 0.0], [8.0, -4.0], 596, 10.2),
+        ("F-55-crosses-true", 0.1, [8.0, 0.0], [8.0, 8.0], 931, 8.4),
     ] {
         let line = lines.lines().find(|it| it.contains(&format!("\"id\": \"{id}\"")));
         let vector: serde_json::Value = serde_json::from_str(line.expect(id)).expect("JSON");

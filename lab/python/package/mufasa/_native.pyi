@@ -166,8 +166,8 @@ class VerifiedTrajectory:
 
     @property
     def brake_by(self) -> Time | None:
-        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or, except
-        while MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more.
+        """By when control has to brake along it, with at least ``a_b``, unless a later cycle has given one or,
+        except while MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more.
         None in the paper profile."""
 
 @final

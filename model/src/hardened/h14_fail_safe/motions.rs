@@ -4,6 +4,7 @@ use crate::hardened::detection_history::{
     Seen, Usable, confirmed, has_stood, is_disputed, is_within, list_of, may_come_from,
     moved_evenly, nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
 };
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
@@ -20,6 +21,8 @@ pub struct Motion {
     pub w: Vector,
     /// abs(w), m/s.
     pub speed: Real,
+    /// w_least, its least speed at the time of its list, m/s.
+    pub w_least: Real,
     /// What a witness names.
     pub named: Named,
 }
@@ -39,17 +42,24 @@ pub struct Named {
 }
 
 impl Motion {
+    /// One whose w is that at the time of its list.
     fn new(scene: &Scene, object: &Object, stamp_ns: i64, w: Vector, named: Named) -> Self {
         let age = Real::seconds(i128::from(scene.now_ns) - i128::from(stamp_ns));
-        Self { object: object.clone(), age, speed: w.length(), w, named }
+        let speed = w.length();
+        Self { object: object.clone(), age, w_least: speed.clone(), speed, w, named }
     }
 
-    /// r_b(t) = abs(w) t - a_tyre t^2 / 2 up to t = abs(w) / a_tyre, and s_tyre(abs(w)) from then on, m.
+    /// The same where w is the mean over the time dt before that of its list.
+    fn over(self, scene: &Scene, dt: &Real) -> Self {
+        Self { w_least: w_least(&self.speed, &a_tyre(&scene.parameters.a_b), dt), ..self }
+    }
+
+    /// r_b(t) = w_least t - a_tyre t^2 / 2 up to t = w_least / a_tyre, and s_tyre(w_least) from then on, m.
     pub fn r_b(&self, a_tyre: &Real, t: &Real) -> Real {
-        if a_tyre * t <= self.speed {
-            &self.speed * t - a_tyre * t.square() / Real::from_integer(2)
+        if a_tyre * t <= self.w_least {
+            &self.w_least * t - a_tyre * t.square() / Real::from_integer(2)
         } else {
-            s_b(&self.speed, a_tyre)
+            s_b(&self.w_least, a_tyre)
         }
     }
 
@@ -61,6 +71,11 @@ impl Motion {
         }
         self.w.scaled(&(r * &self.speed / squared))
     }
+}
+
+/// max(mean - a_tyre dt / 2, 0), m/s: no object is slower after a time dt that it drove with this mean.
+pub fn w_least(mean: &Real, a_tyre: &Real, dt: &Real) -> Real {
+    (mean - a_tyre * dt / Real::from_integer(2)).max(Real::zero())
 }
 
 /// All that is examined, in the order of the text.
@@ -105,7 +120,7 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
             item: Some(pair.item),
             age_ns: i64::try_from(pair.list.age_ns).ok(),
         };
-        Motion::new(scene, d, list.stamp_ns, w, named)
+        Motion::new(scene, d, list.stamp_ns, w, named).over(scene, &pair.list.dt)
     });
     let standing = unexplained.iter().map(|d| {
         let w = Vector { x: Real::zero(), y: Real::zero() };

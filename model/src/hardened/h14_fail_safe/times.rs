@@ -46,14 +46,9 @@ impl<'a> Driving<'a> {
         s_b(self.v, self.a_b)
     }
 
-    /// That of `a_b`, m/s^2.
-    pub fn a_tyre(&self) -> Real {
-        a_tyre(self.a_b)
-    }
-
     /// s_tyre(speed) = speed^2 / (2 a_tyre), m.
     pub fn s_tyre(&self, speed: &Real) -> Real {
-        s_b(speed, &self.a_tyre())
+        s_b(speed, &a_tyre(self.a_b))
     }
 
     /// T = tau + v_tau / a_b, s: from then on the CAV surely stands.
@@ -74,7 +69,7 @@ impl<'a> Driving<'a> {
 
     /// The latest time at which it has driven no more than f < s_tyre(v), s.
     pub fn last(&self, f: &Real) -> Real {
-        self.braking_with(&self.a_tyre(), f)
+        self.braking_with(&a_tyre(self.a_b), f)
     }
 
     /// When it has driven f, braking at once with the deceleration a, s: (v - sqrt(max(v^2 - 2 a f, 0))) / a.

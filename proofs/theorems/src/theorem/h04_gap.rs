@@ -2,6 +2,7 @@
 
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::h04_gap::s_react;
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{
     Formula, at_most, equal, forget_of_what_products_are, given, iff, implies, less,
@@ -43,8 +44,7 @@ pub const THEOREMS: &[Theorem] = &[
             statement: "s_tyre(v_lead) is left of it whatever it has gone",
             claim: || {
                 let (cav, w, t) = behind();
-                let (gone, stops) =
-                    (braked(&w, &cav.driving().a_tyre(), &t), cav.driving().s_tyre(&w));
+                let (gone, stops) = (braked(&w, &a_tyre(&cav.a_b), &t), cav.driving().s_tyre(&w));
                 equal(&(gone + &stops), &stops)
             },
         },
@@ -94,7 +94,7 @@ fn behind() -> (Cav, Real, Real) {
 
 /// The speed of a lead that has braked with a_tyre for t.
 fn slowed(cav: &Cav, v_lead: &Real, t: &Real) -> Real {
-    (v_lead - cav.driving().a_tyre() * t).max(Real::zero())
+    (v_lead - a_tyre(&cav.a_b) * t).max(Real::zero())
 }
 
 /// s_tyre(w) <= s_b(u).
@@ -106,12 +106,12 @@ fn stops_sooner(cav: &Cav, w: &Real, u: &Real) -> Formula {
 fn stops_where_it_would(cav: &Cav, v_lead: &Real, t: &Real) -> Formula {
     let driving = cav.driving();
     let rest = driving.s_tyre(&slowed(cav, v_lead, t));
-    equal(&(braked(v_lead, &driving.a_tyre(), t) + rest), &driving.s_tyre(v_lead))
+    equal(&(braked(v_lead, &a_tyre(&cav.a_b), t) + rest), &driving.s_tyre(v_lead))
 }
 
 /// The fastest CAV has gone no farther than that lead.
 fn no_farther(cav: &Cav, v_lead: &Real, t: &Real) -> Formula {
-    at_most(&cav.fastest(t).way, &braked(v_lead, &cav.driving().a_tyre(), t))
+    at_most(&cav.fastest(t).way, &braked(v_lead, &a_tyre(&cav.a_b), t))
 }
 
 fn any_gone_farther(order: fn(&Real, &Real) -> Formula) -> Formula {
@@ -135,7 +135,7 @@ pub fn gone_farther(
     order: fn(&Real, &Real) -> Formula,
 ) -> Formula {
     let driving = cav.driving();
-    let of_lead = braked(v_lead, &driving.a_tyre(), t);
+    let of_lead = braked(v_lead, &a_tyre(&cav.a_b), t);
     order(&cav.fastest(t).way, &(s_react(&driving, v_lead) + of_lead))
 }
 

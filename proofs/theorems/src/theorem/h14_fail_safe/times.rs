@@ -100,8 +100,8 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "no_CAV_is_anywhere_after_last",
-        statement: "H-14: whatever it does, while the CAV is at a way f < s_tyre(v) it is not \
-                    after last(f)",
+        statement: "H-14: whatever it does, braking with at most a_tyre, while the CAV is at a way f < s_tyre(v) it \
+                    is not after last(f)",
         domain: DOMAIN,
         claim: || after_last(Cav::s_tyre),
         wrong: Wrong { statement: "f < s_stop", claim: || after_last(Cav::s_stop) },
@@ -255,7 +255,7 @@ fn is_there_first(end: fn(&Cav) -> Real) -> Formula {
 }
 
 fn is_there_last(end: fn(&Cav) -> Real) -> Formula {
-    is_there(end, Cav::last, |cav, t| braked(&cav.v, &cav.driving().a_tyre(), t))
+    is_there(end, Cav::last, |cav, t| braked(&cav.v, &a_tyre(&cav.a_b), t))
 }
 
 fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
@@ -298,7 +298,7 @@ fn done_before_tau() -> (Cav, Done) {
 
 /// Speed and way are at most those of speeding up with a_max, at least those of braking with a_tyre.
 fn can_be(cav: &Cav, Done { t, way, u }: &Done) -> Formula {
-    let a_tyre = cav.driving().a_tyre();
+    let a_tyre = a_tyre(&cav.a_b);
     Formula::All(vec![
         at_most(&Real::zero(), u),
         at_most(&(&cav.v - &a_tyre * t), u),
@@ -319,7 +319,7 @@ fn after(Done { t, way, u }: &Done, a: &Real, dt: &Real) -> Done {
 fn pieces(share: &Real) -> Formula {
     let (cav, done) = done();
     let [a, dt] = ["a", "dt"].map(Real::variable);
-    given(at_most(&-&cav.driving().a_tyre(), &a));
+    given(at_most(&-&a_tyre(&cav.a_b), &a));
     given(at_most(&a, &(share * &cav.a_max)));
     can_be(&cav, &after(&done, &a, &dt))
 }

@@ -3,6 +3,7 @@
 
 use super::motion::{Ahead, Examined, Limits};
 use crate::drive::{COLUMNS, cell};
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::stages::distances::s_b;
@@ -47,7 +48,7 @@ fn row(number: usize, event: &str, numbers: [&Real; 5]) {
 /// A vehicle that goes on at one acceleration from -a_tyre to `most`: its speed after dt, and its way.
 fn piece(limits: &Limits, v: &Real, most: &Real, dt: &Real) -> (Real, Real) {
     let a = Real::variable("a");
-    given(at_most(&-limits.a_tyre(), &a));
+    given(at_most(&-a_tyre(&limits.a_b), &a));
     given(at_most(&a, most));
     let after = v + &a * dt;
     given(at_most(&Real::zero(), &after));
@@ -87,7 +88,7 @@ pub fn stands_before(events: &Events, ahead: Ahead, centimetres: i64) -> Formula
     let (last, _) = events[events.len() - 1];
     let way = s_b(&v, &limits.a_b);
     let time = Real::ratio(last, 100) + &v / &limits.a_b;
-    let rest = gap + s_b(&w, &limits.a_tyre()) - &way;
+    let rest = gap + s_b(&w, &a_tyre(&limits.a_b)) - &way;
     let zero = Real::zero();
     row(events.len(), "stands", [&time, &(place + way), &zero, &rest, &zero]);
     less(&Real::ratio(centimetres, 100), &rest)

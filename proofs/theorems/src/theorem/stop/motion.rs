@@ -150,11 +150,6 @@ impl Limits {
         Driving { v, tau: left, a_max: &self.a_max, a_b: &self.a_b }.s_stop()
     }
 
-    /// How hard tyres hold, m/s^2.
-    pub fn a_tyre(&self) -> Real {
-        a_tyre(&self.a_b)
-    }
-
     /// The invariant: what is ahead is not reached, and would stand beyond the place where the CAV stands that speeds
     /// up until `brake_by` and then brakes. That is gap > s_react with the time left in the place of tau,
     /// and gap > s_stop where w = 0.
@@ -162,7 +157,7 @@ impl Limits {
         Formula::All(vec![
             at_most(&Real::zero(), left),
             less(&Real::zero(), gap),
-            less(&self.s_stop(v, left), &(gap + s_b(w, &self.a_tyre()))),
+            less(&self.s_stop(v, left), &(gap + s_b(w, &a_tyre(&self.a_b)))),
         ])
     }
 
@@ -210,7 +205,7 @@ impl Limits {
 
     /// at no time more than so many times a_tyre.
     fn is_of_lead(&self, w: &Real, Motion { dt, way, speed }: &Motion, times: i128) -> Formula {
-        let a = Real::from_integer(times) * self.a_tyre();
+        let a = Real::from_integer(times) * a_tyre(&self.a_b);
         let braked = w - &a * dt;
         let goes = vec![at_most(&driven(w, &-&a, dt), way), at_most(&braked, speed)];
         let stopped = s_b(w, &a);
@@ -218,7 +213,7 @@ impl Limits {
     }
 
     fn lead_keeps(&self, w: &Real, motion: &Motion, times: i128) -> Formula {
-        let a_tyre = self.a_tyre();
+        let a_tyre = a_tyre(&self.a_b);
         let stops = &motion.way + s_b(&motion.speed, &a_tyre);
         implies(self.is_of_lead(w, motion, times), at_most(&s_b(w, &a_tyre), &stops))
     }
