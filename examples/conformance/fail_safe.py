@@ -93,9 +93,10 @@ def sweeps(sides, dx, dy, ux, uy, r1, r2):
 
 
 class Motion:
-    """An object, its velocity w (in fractions), and the age of its list."""
+    """An object, its velocity w (in fractions), and the age of its list. It has that velocity in the mean of the
+    time dt before; None where it has it now."""
 
-    def __init__(self, cycle, item, w, stamp_ns):
+    def __init__(self, cycle, item, w, stamp_ns, dt_ns=None):
         self.ego, parameters = cycle["ego"], cycle["parameters"]
         self.item = {**item, "x": item["x"] - self.ego["x"], "y": item["y"] - self.ego["y"]}
         self.age_ns, self.a_b = cycle["now_ns"] - stamp_ns, parameters["a_b"]
@@ -104,14 +105,15 @@ class Motion:
         self.w, velocity = w, [float(part) for part in w]
         self.speed = math.hypot(*velocity)
         self.u = [part / self.speed if self.speed else 0.0 for part in velocity]
+        self.least = max(self.speed - self.a_tyre * (dt_ns or 0) / S / 2, 0.0)
         can_stop = parameters["t_yield"] + self.speed / (2 * parameters["a_yield"])
         self.yielded = parameters["tau"] + can_stop
         self.now = {"x": 0.0, "y": 0.0, "cos": self.ego["cos"], "sin": self.ego["sin"]}
 
     def braked(self, t):
         """How far the object goes in a time when it brakes as hard as tyres hold."""
-        t = min(t, self.speed / self.a_tyre)
-        return self.speed * t - self.a_tyre * t * t / 2
+        t = min(t, self.least / self.a_tyre)
+        return self.least * t - self.a_tyre * t * t / 2
 
     def meets(self, cav, pose, t1, t2):
         """Whether it sweeps over the CAV, of some length and width, at a place from t1 to t2."""
@@ -228,7 +230,7 @@ class FailSafe:
             yield Motion(self.cycle, track, w, self.cycle["tracks"]["stamp_ns"])
         for detection, item, age_ns in seen.motions():
             w = [part * S / age_ns for part in displacement(item, detection)]
-            yield Motion(self.cycle, detection, w, self.cycle["detections"]["stamp_ns"])
+            yield Motion(self.cycle, detection, w, self.cycle["detections"]["stamp_ns"], age_ns)
 
     def meets_nobody(self, seen, tracks):
         """Whether no object that is seen, or a current track, may meet the CAV before it stands,

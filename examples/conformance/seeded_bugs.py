@@ -167,6 +167,8 @@ BUGS = [
              "H-14: a window begins at the first time at its place, not at the place before it"),
     hardened("tyres-hold-a_b", "stopping.py", 'max(parameters["a_b"], 11.5)', 'parameters["a_b"]',
              "H-14: no vehicle is taken to brake harder than a_b"),
+    hardened("brakes-from-the-mean", "fail_safe.py", "(dt_ns or 0) / S / 2", "0",
+             "H-14: of two lists an object is taken to have the mean speed between them, however hard it braked"),
     hardened("window-to-progress", "fail_safe.py", "self.stop.last(after.length) if",
              "self.stop.last(max(after.progress, 0)) if",
              "H-14: a window ends at the last time of the progress, not of the length"),

@@ -40,7 +40,7 @@ fn hit(scene: &Scene) -> Option<(i64, i64)> {
     Some(collision(scene)?.1)
 }
 
-/// A car of 4 m by 2 m ahead on the road that drives at 5 m/s, as the CAV does, its rear so far ahead of p:
+/// A car of 4 m by 2 m ahead on the road that drives at 7 m/s, the CAV at 5 m/s, its rear so far ahead of p:
 /// the second track and the second detection, seen 300 ms and 500 ms earlier, too. Cells are occupied up to
 /// 9 m ahead.
 fn car_ahead(configuration: Configuration, place: [f64; 2], rear: f64, first: usize) -> Scene {
@@ -49,8 +49,8 @@ fn car_ahead(configuration: Configuration, place: [f64; 2], rear: f64, first: us
     let [x, y] = [place[0] + rear + 2.0, place[1]];
     let beside = detection(place[0] + 3.0, place[1] + 50.1);
     scene.tracks =
-        Some(vec![track(1, beside.x, beside.y - 0.1), Track { vx: 5.0, ..track(2, x, y) }]);
-    let seen = |ago_s: f64| vec![beside, detection(x - 5.0 * ago_s, y)];
+        Some(vec![track(1, beside.x, beside.y - 0.1), Track { vx: 7.0, ..track(2, x, y) }]);
+    let seen = |ago_s: f64| vec![beside, detection(x - 7.0 * ago_s, y)];
     scene.detections = Some(seen(0.0));
     scene.history = vec![(300_000_000, seen(0.3)), (500_000_000, seen(0.5))];
     scene
