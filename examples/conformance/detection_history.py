@@ -9,6 +9,7 @@ import math
 from collections import Counter
 
 from geometry import EPS, distance
+from stopping import a_tyre
 
 S = 10**9  # ns
 STOOD = 0.3  # m; no farther from where it is did a detection stand
@@ -126,11 +127,14 @@ class Seen:
         if distance(item, detection) > self.parameters["v_object"] * one["dt"] + EPS:
             return False
         others = [other for other in self.lists if other is not one]
-        bound = self.parameters["theta_track_max"] + EPS
         w = velocity(item, detection, one)
         moving = {**detection, "vx": w[0], "vy": w[1]}
-        return not others or any(gap(item, moving, -other["dt"]) <= bound
+        return not others or any(gap(item, moving, -other["dt"]) <= self.off(one["dt"], other["dt"]) + EPS
                                  for other in others for item in other["items"])
+
+    def off(self, dt, other):
+        """How far from its mean motion over dt it was at another time: tyres change a velocity by no more."""
+        return self.parameters["theta_track_max"] + a_tyre(self.parameters) * other * abs(other - dt) / 2
 
     def is_disputed(self, i, unexplained):
         """Whether an unexplained detection may come from the origin of a confirmed track in its list."""

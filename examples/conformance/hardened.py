@@ -3,7 +3,7 @@ for stage ii (hardened_ii.py) and H-08 (offloading.py)."""
 import math
 
 from closed_cells import stage_v
-from detection_history import Seen, gap
+from detection_history import S, Seen, gap
 from fail_safe import FailSafe
 from geometry import EPS, assignment_cost, distance
 from hardened_ii import stage_ii
@@ -48,7 +48,9 @@ def gap_is_kept(cycle, rule):
     if not (lead := cycle["lead"]):
         return True
     s_react = max(float(rule.stop.s_stop) - lead["speed"]**2 / (2 * float(rule.stop.a_tyre)), 0.0)
-    return lead["gap"] > s_react + EPS
+    age = (cycle["now_ns"] - lead["stamp_ns"]) / S
+    s_since = cycle["ego"]["speed"] * age + float(rule.stop.a_tyre) * age**2 / 2
+    return lead["gap"] > s_react + s_since + EPS
 
 
 def stage_i(cycle, seen):

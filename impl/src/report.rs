@@ -117,7 +117,7 @@ pub enum Rule {
     Slide,
     /// H-14: a point or place is farther aside than tyres take the CAV.
     Reach,
-    /// Stage iv: gap <= `s_follow`; H-04: gap <= `s_react`.
+    /// Stage iv: gap <= `s_follow`; H-04: gap <= `s_react` + `s_since`.
     Gap,
     /// Stages iii and iv: rectangles share a point.
     Collision,

@@ -102,7 +102,7 @@ macro_rules! witness_rules {
             Slide = "slide";
             /// Stage ii, H-14: a place, or a point that is no node, is not within reach.
             Reach = "reach";
-            /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react.
+            /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react + s_since.
             Gap = "gap";
             /// Stages iii and iv: rectangles share a point.
             Collision = "collision";

@@ -9,7 +9,7 @@ use crate::cycle::order::{Turn, decide, schedule};
 use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::places::{dilated_at_places, places_of};
-use crate::hardened::h04_gap::s_react;
+use crate::hardened::h04_gap::{s_react, s_since};
 use crate::hardened::h06_closed_cells::closed_cells;
 use crate::hardened::h07_start::{corridor_failure, direction_failure, start_failure};
 use crate::hardened::h11_steps::step_failure;
@@ -254,7 +254,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         }
         let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
         // H-04.2, H-14.46
-        gap_failure(lead, |lead| s_react(self.cycle, lead))
+        gap_failure(lead, |lead| s_react(self.cycle, lead) + s_since(self.cycle, lead))
             .or_else(|| self.fail_safe(seen, scratch))
     }
 

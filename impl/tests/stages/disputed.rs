@@ -115,15 +115,20 @@ fn nothing_faster_than_v_object_disputes() {
     }
 }
 
+/// SEEN-16: 1 m and what tyres bend the way of a thing, 11.5 m/s^2 dt' abs(dt' - dt)/2, or more where the CAV
+/// brakes harder.
 #[test]
 fn another_list_has_to_support_the_dispute() {
-    for (off, met) in [(1.0 - 1e-7, true), (1.0 + 1e-7, false)] {
-        let mut scene = taken();
-        scene.history[0].1[2] = parked(-off);
-        scene.history[2].1[2] = parked(-off);
-        assert_eq!(collides(&scene), met, "{off}");
-        scene.history[0].1[2] = parked(0.0);
-        assert!(collides(&scene), "one of two");
+    for (a_b, a_tyre) in [(8.0, 11.5), (20.0, 20.0)] {
+        // The list of the track is that of 500 ms.
+        let within = [0.3 * 0.2, 0.8 * 0.3].map(|bend| 1.0 + a_tyre * bend / 2.0);
+        for (offs, met) in [([1e-7, 1e-7], false), ([-1e-7, 1e-7], true), ([1e-7, -1e-7], true)] {
+            let mut scene = taken();
+            scene.parameters.a_b = a_b;
+            scene.history[0].1[2].y += within[0] + offs[0];
+            scene.history[2].1[2].y += within[1] + offs[1];
+            assert_eq!(collides(&scene), met, "{a_b} {offs:?}");
+        }
     }
 }
 
@@ -140,7 +145,7 @@ fn the_list_is_that_of_the_track() {
         scene.history[1].1[2] = detection(x - 6.0, y);
         assert_eq!(collides(&scene), met, "{v_object}");
         // What it supports is an item of another list.
-        scene.history[1].1[2].x += 1.1;
+        scene.history[1].1[2].x += 1.0 + 11.5 * 0.5 * 0.2 / 2.0 + 1e-6;
         assert!(!collides(&scene));
     }
 }

@@ -9,6 +9,7 @@ mod cells;
 mod close;
 mod disputed;
 mod extremes;
+mod gap;
 mod history;
 mod input;
 mod motions;

@@ -1,6 +1,7 @@
 //! What the CAV saw itself (SEEN-01 to SEEN-19, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
 //! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
@@ -152,13 +153,16 @@ pub fn is_disputed<'a>(
 }
 
 /// Whether a detection d may come from an item d', given by list and index: abs(d - d') <= v_object dt
-/// and, when there are other lists, one of them has an item at distance <= theta_track_max from
-/// d - w dt'.
+/// and, when there are other lists, one of them, of age dt', has an item at distance
+/// <= theta_track_max + a_tyre dt' abs(dt' - dt) / 2 from d - w dt'.
 pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
     let (list, p) = (&lists[k], &scene.parameters);
     let before = &list.items[item];
     let w = velocity(d, before, &list.dt);
-    let supports = |other: &Usable| had_it(scene, other, d, &w, &p.theta_track_max);
+    let supports = |other: &Usable| {
+        let off = a_tyre(&p.a_b) * &other.dt * (&other.dt - &list.dt).abs() / Real::from_integer(2);
+        had_it(scene, other, d, &w, &(&p.theta_track_max + off))
+    };
     let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
     is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
         && (others.peek().is_none() || others.any(|(_, other)| supports(other)))

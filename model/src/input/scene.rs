@@ -152,6 +152,8 @@ pub struct Lead {
     pub gap: Real,
     /// v_lead, m/s.
     pub speed: Real,
+    /// Now minus the time of measurement, s.
+    pub age: Real,
 }
 
 /// A route in exact numbers.
@@ -256,6 +258,7 @@ impl Scene {
             lead: cycle.lead.as_ref().filter(|lead| is_current(lead.stamp_ns)).map(|lead| Lead {
                 gap: Real::from_double(lead.gap),
                 speed: Real::from_double(lead.speed),
+                age: Real::seconds(i128::from(cycle.now_ns) - i128::from(lead.stamp_ns)),
             }),
             route: route(&cycle.route),
             grid: cycle.grid.as_ref().filter(|grid| is_current(grid.stamp_ns)).map(grid),

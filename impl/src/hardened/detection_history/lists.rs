@@ -3,6 +3,7 @@
 use crate::cycle::steps::SUPPORT;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Track, TrackList};
 use crate::input::scratch::{Column, Row};
@@ -11,6 +12,9 @@ use crate::numbers::time::{elapsed_ns, seconds};
 
 /// At most so far from its items is what stood, m.
 const STOOD: f64 = 0.3;
+
+/// No dt' abs(dt' - dt)/2 of two usable lists is greater (SEEN-01, SEEN-16), s^2.
+const LONGEST_BEND: f64 = 0.4;
 
 /// A usable list, by squares, and its place in the history.
 type Shown<'c> = (usize, UsableList<'c>, Squares<'c>);
@@ -100,9 +104,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         columns: &mut [Column],
     ) -> Option<Squares<'c>> {
         if self.squares.iter().all(Option::is_none) {
-            // Of a few squares for what comes from anywhere, and of a few things in a square.
+            // Of a few squares for what comes from anywhere, at most four for what supports it, and of a
+            // few things in a square.
             let parameters = &self.cycle.parameters;
-            let side = larger(4.0 * parameters.theta_track_max, 0.25 * parameters.v_object);
+            let support =
+                4.0 * parameters.theta_track_max + 2.0 * LONGEST_BEND * a_tyre(parameters);
+            let side = larger(support, 0.25 * parameters.v_object);
             let usable = self.history.usable.iter().zip(0..);
             for (squares, (list, number)) in self.squares.iter_mut().zip(usable) {
                 *squares =
@@ -129,6 +136,14 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.cycle.parameters.theta_track_max + CLOSE
     }
 
+    /// At most so far from where the detection was, on a straight way from its item at an even speed, an item
+    /// of another list supports that (SEEN-16), m.
+    fn supports_within(&self, list: &UsableList<'_>, origin: &Origin) -> f64 {
+        let bend = 0.5 * list.age * (list.age - origin.age).abs();
+        //
+        self.may_stand_within() + a_tyre(&self.cycle.parameters) * bend
+    }
+
     /// Whether a detection may come from an item, except for the distance: whether another list supports it
     /// (SEEN-16), when there are other lists (SEEN-15). All are listed.
     pub(crate) fn is_supported(&self, origin: &Origin, columns: &[Column]) -> bool {
@@ -137,8 +152,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             return true;
         }
         self.work.add(SUPPORT);
-        let (mut others, reach) = (self.others(origin).peekable(), self.may_stand_within());
-        others.peek().is_none() || others.any(|list| self.had_it(list, origin, reach, columns))
+        let mut others = self.others(origin).peekable();
+        others.peek().is_none()
+            || others.any(|list| {
+                let reach = self.supports_within(&list.1, origin);
+                self.had_it(list, origin, reach, columns)
+            })
     }
 
     /// Whether an item is taken (H-14.63). `has_stood`: what is known of that. All lists are listed.

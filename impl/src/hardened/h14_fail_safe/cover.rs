@@ -57,8 +57,8 @@ impl Clock {
         larger(self.times.until_stop, self.yields + speed * self.yielding)
     }
 
-    /// After what time an object that goes on is where it is so many seconds after now when it brakes:
-    /// `r_b` of H-14.24 is the way in that time.
+    /// The time in which an object that goes on covers `r_b` of H-14.24: the way that it covers from the time
+    /// of its list until so many seconds after now when it brakes.
     pub(super) fn braked(&self, object: &Object, seconds: f64) -> f64 {
         let &Object { speed, least, age, .. } = object;
         let brakes = smaller(larger(age + seconds, 0.0), least * self.braking);

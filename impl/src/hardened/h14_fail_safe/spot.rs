@@ -2,13 +2,13 @@
 //!
 //! All counts from the CAV's reference point. Places and ways come rounded once from numbers with error
 //! bounds. A window errs by less than 1e-14 of H(w), or by 1e-12 s where little way is left to a stop: the root
-//! of a way that is known up to 1e-26 m. `w_least` errs by less than 2^-49 of abs(w). With these each comparison
-//! rounds less than 64 times numbers that are no greater than D = abs(c - p) + abs(w) (60 s + H(w)), or than
-//! 5 km, where the two may be so near that it matters. So it errs by less than
-//! 64 * 2^-53 (D + 5 km) + abs(w) (1e-14 H(w) + 1e-12 s), which is less than a half of `ROUGH` D and a hundredth
-//! of `SLACK`. What is added here is less than four times `ROUGH` D and twice `SLACK`, since D counts
-//! x and y, c where the list has it, and the axis across the way takes x and y apart again: less than the
-//! strict model adds, 1e-8 m + 1e-12 D (MARGIN-16).
+//! of a way that is known up to 1e-26 m. `w_least` errs by less than 2^-49 of abs(w). Each comparison
+//! rounds less than 64 times, with the roundings of these, and only numbers that are no greater than
+//! D = abs(c - p) + abs(w) (60 s + H(w)), or than 5 km, where the two may be so near that it matters. So it
+//! errs by less than 64 * 2^-53 (D + 5 km) + abs(w) (1e-14 H(w) + 1e-12 s), which is less than a half of
+//! `ROUGH` D and a hundredth of `SLACK`. What is added here is less than four times `ROUGH` D and twice
+//! `SLACK`, since D counts x and y, c where the list has it, and the axis across the way takes x and y apart
+//! again: less than the strict model adds, 1e-8 m + 1e-12 D (MARGIN-16).
 
 use crate::hardened::h14_fail_safe::cover::{Clock, Object};
 use crate::hardened::h14_fail_safe::path::Place;

@@ -120,7 +120,7 @@ fn plainly_stops(way: f64, a: Real) -> f64 {
 }
 
 /// `a_tyre` = max(`a_b`, 11.5 m/s^2): no vehicle brakes harder (H-14.10). One of the two, not rounded.
-pub(super) fn a_tyre(parameters: &Parameters) -> f64 {
+pub(crate) fn a_tyre(parameters: &Parameters) -> f64 {
     // A-09; A-10
     larger(parameters.a_b, TYRES)
 }

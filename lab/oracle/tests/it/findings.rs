@@ -192,7 +192,7 @@ fn is_safe(cycle: &Cycle) -> bool {
     report.failed_stage.is_none()
 }
 
-/// F-46, F-54, F-55: a car crosses straight on. With the second decelerations of CAV and car they meet, first at that time
+/// F-46, F-54, F-55: a car crosses straight on. With the second decelerations of CAV and car (-4: it speeds up) they meet, first at that time
 /// and speed of the CAV, and not with the first ones, of which none is above the vector's `a_b`. The CAV brakes from `begins`
 /// on, in s.
 #[test]

@@ -184,8 +184,10 @@ impl Aim<'_> {
         let (a, t) = (a_tyre(&self.cycle.parameters), self.age + self.path.begin(k));
         let speed = draw.pick(&[8.0, 25.0, 3.0, a * t, 0.5]).min(100.0);
         let speed = draw.near(speed).max(0.0);
-        let braked =
-            if a * t <= speed { speed * t - 0.5 * a * t * t } else { speed * speed / (2.0 * a) };
+        // Of two lists 0.5 s apart, at times, it may be slower than its mean.
+        let least = if draw.one_in(4) { (speed - 0.25 * a).max(0.0) } else { speed };
+        let t = t.min(least / a);
+        let braked = least * t - 0.5 * a * t * t;
         let met = self.path.body(self.cycle, k).met_by(&self.at(at), e);
         let (_, by) = met.unwrap_or((0.0, 0.0));
         let by = draw.near(by);

@@ -34,13 +34,13 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "no_object_is_slower_than_w_least",
-        statement: "H-14: the way of an object in t is at most its speed after it times t, and a_tyre t^2 / 2: at t = 0 \
-                    so, and still after any time of braking with at most a_tyre; so it is not slower than w_least of \
-                    its mean over dt = t",
+        statement: "H-14, H-04: the way of a vehicle in t is at most its speed after it times t plus a_tyre t^2 / 2: so at \
+                    t = 0, and still after any time of an acceleration of at least -a_tyre; so it is not slower than \
+                    w_least of its mean over dt = t",
         domain: "all times, speeds >= 0, a_tyre > 0",
         claim: || slower(&Real::from_integer(1)),
         wrong: Wrong {
-            statement: "of braking with at most 2 a_tyre",
+            statement: "of an acceleration of at least -2 a_tyre",
             claim: || slower(&Real::from_integer(2)),
         },
     },

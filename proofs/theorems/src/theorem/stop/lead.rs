@@ -5,22 +5,27 @@ use super::motion::{Ahead, DOMAIN, Examined, Limits, at_least_zero};
 use super::system::{every_step_keeps, stands_before};
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::h04_gap::failure_without_stage_iv;
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::cycle::{Lead, Profile};
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{Formula, at_most, given, not};
+use crate::numbers::real::formula::{Formula, at_most, forget_of_what_products_are, given, not};
 use crate::numbers::real::hole::open_number;
 use crate::services::configuration::Configuration;
 use crate::theorem::base::{self, NOW_NS};
+use crate::theorem::h14_fail_safe::times::driven;
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_gap_of_a_CAV_that_passes_H-04_is_that_of_the_stop_invariant",
-        statement: "H-04.2: where stage iv is silent the rule passes exactly when the stop invariant holds: the gap is above 0, and \
-                    gap + s_tyre(v_lead) above s_stop",
-        domain: "all gaps, v_now, v_lead, tau >= 0, a_max, a_b > 0; gap and speed of the lead are those of now",
-        claim: || gap(0),
-        wrong: Wrong { statement: "with tau 1 cs longer", claim: || gap(1) },
+        statement: "H-04.2: where stage iv is silent the rule passes exactly when the stop invariant holds: the gap less s_since is \
+                    above 0, and with s_tyre(v_lead) above s_stop",
+        domain: "all gaps, v_now, v_lead, tau >= 0, a_max, a_b > 0; the lead is measured now or 50 ms ago",
+        claim: || {
+            forget_of_what_products_are();
+            Formula::All(vec![gap(0, 0), gap(0, 50)])
+        },
+        wrong: Wrong { statement: "with tau 1 cs longer", claim: || gap(1, 0) },
     },
     Theorem {
         id: "every_transition_keeps_the_stop_invariant_of_a_lead",
@@ -45,11 +50,12 @@ pub const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// H-04 passes exactly when the invariant holds with so many hundredths of a second more.
-fn gap(more: i64) -> Formula {
+/// H-04 passes exactly when the invariant holds with so many hundredths of a second more, for a lead measured so many ms
+/// ago.
+fn gap(more: i64, age_ms: i64) -> Formula {
     let mut cycle = base::cycle(Profile::HARDENED, Configuration::PlanRemote);
     let [gap, speed] = ["gap", "v_lead"].map(open_number);
-    cycle.lead = Some(Lead { stamp_ns: NOW_NS, gap, speed });
+    cycle.lead = Some(Lead { stamp_ns: NOW_NS - age_ms * 1_000_000, gap, speed });
     let mut scene = base::scene(&cycle);
     let limits = Limits::any();
     scene.ego.v_now = at_least_zero("v_now");
@@ -61,7 +67,8 @@ fn gap(more: i64) -> Formula {
         given(at_most(&Real::zero(), number));
     }
     let left = &limits.tau + Real::ratio(more, 100);
-    let holds = limits.holds(&scene.ego.v_now, &Examined { left, gap, w });
+    let since = driven(&scene.ego.v_now, &a_tyre(&limits.a_b), &Real::ratio(age_ms, 1000));
+    let holds = limits.holds(&scene.ego.v_now, &Examined { left, gap: gap - since, w });
     match failure_without_stage_iv(&scene) {
         None => holds,
         Some(_) => not(holds),
