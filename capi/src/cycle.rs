@@ -169,7 +169,7 @@ pub struct MufasaLead {
     pub stamp: MufasaTime,
     /// From bumper to bumper, in metres.
     pub gap: MufasaGap,
-    /// Speed of the leading vehicle over ground along the reference path, not below 0, m/s.
+    /// Speed of the leading vehicle over ground along the reference path at the time of measurement, not below 0, m/s.
     pub speed: f64,
 }
 
@@ -244,7 +244,7 @@ pub struct MufasaCycle {
     pub profile: u32,
     /// A MufasaConfiguration.
     pub configuration: u32,
-    /// When pose and speed of the CAV were measured, on its monotonic clock; at another time tau counts their age, too (H-14.14).
+    /// The time that pose and speed of the CAV are of, on its monotonic clock: carry older ones forward to it (H-14.14).
     pub now: MufasaTime,
     /// Start from `mufasa_parameters_default`.
     pub parameters: MufasaParameters,

@@ -19,8 +19,8 @@ pub struct Cycle<'a> {
     pub profile: Profile,
     /// Parameters in force.
     pub parameters: Parameters,
-    /// Time of the decision on the CAV's monotonic clock, ns. With H-14 pose and speed were measured then, or `tau`
-    /// counts their age, too.
+    /// Time of the decision on the CAV's monotonic clock, ns. With H-14 pose and speed are those of then:
+    /// carry older ones forward (H-14.14).
     pub now_ns: i64,
     /// Which groups are remote.
     pub configuration: Configuration,
@@ -159,7 +159,7 @@ pub struct Lead {
     /// Free distance along the reference path, bumper to bumper: from the front edge of the CAV's
     /// rectangle to the nearest point of the leading vehicle, m.
     pub gap: f64,
-    /// `v_lead`, along the path, m/s.
+    /// `v_lead` at that time, along the path, m/s.
     pub speed: f64,
 }
 
