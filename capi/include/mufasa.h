@@ -709,7 +709,7 @@ typedef struct MufasaLead {
   struct MufasaTime stamp;
   // From bumper to bumper, in metres.
   struct MufasaGap gap;
-  // Speed of the leading vehicle over ground along the reference path, not below 0, m/s.
+  // Speed of the leading vehicle over ground along the reference path at the time of measurement, not below 0, m/s.
   double speed;
 } MufasaLead;
 
@@ -753,7 +753,7 @@ typedef struct MufasaCycle {
   uint32_t profile;
   // A MufasaConfiguration.
   uint32_t configuration;
-  // When pose and speed of the CAV were measured, on its monotonic clock; at another time tau counts their age, too (H-14.14).
+  // The time that pose and speed of the CAV are of, on its monotonic clock: carry older ones forward to it (H-14.14).
   struct MufasaTime now;
   // Start from `mufasa_parameters_default`.
   struct MufasaParameters parameters;
