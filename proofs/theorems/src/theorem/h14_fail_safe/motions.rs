@@ -3,6 +3,7 @@
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::detection_history::{confirmed, origin_limit, stands_within};
 use crate::hardened::h14_fail_safe::motions::{Named, all_motions};
+use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
@@ -103,7 +104,9 @@ fn given_within(vector: &Vector, limit: &Real) {
 /// Assumes that the detection may come from the item of 500 ms ago, the support being that of 300 ms ago.
 fn given_may_come_from(scene: &Scene, detection: &str, item: &str) {
     given_slow(scene, detection, item);
-    given_within(&from_support(detection, item), &scene.parameters.theta_track_max);
+    // 0.3 s, and 0.2 s between the two lists.
+    let bend = a_tyre(&scene.parameters.a_b) * Real::ratio(3, 100);
+    given_within(&from_support(detection, item), &(&scene.parameters.theta_track_max + bend));
 }
 
 /// Assumes that the detection is at most v_object dt from the item of 500 ms ago.
