@@ -175,7 +175,7 @@ fn swept(sheet: &mut Sheet) {
     let strip = |from: f64, to: f64| strip(&scene, motion, from, to);
     let look = Look {
         title: "Swept over in the window from 0.5 s to 0.7 s",
-        words: "Dashed orange: at the time of the list. Dashed purple: the window's strip, from braking with a_tyre since then, here from w itself, to going on.",
+        words: "Dashed orange: at the time of the list. Dashed purple: the window's strip, from braking with a_tyre since then to going on.",
         low: [-2.6, -2.4],
         scale: [33.0; 2],
     };
