@@ -152,17 +152,22 @@ pub fn is_disputed<'a>(
     unexplained.any(|other| may_come_from(scene, lists, other, [k, origin]))
 }
 
+/// How far from d - w dt' an item of a list of age dt' supports a pair over dt:
+/// theta_track_max + a_tyre dt' abs(dt' - dt) / 2, m.
+pub fn supports_within(scene: &Scene, dt: &Real, other: &Real) -> Real {
+    let p = &scene.parameters;
+    let off = a_tyre(&p.a_b) * other * (other - dt).abs() / Real::from_integer(2);
+    &p.theta_track_max + off
+}
+
 /// Whether a detection d may come from an item d', given by list and index: abs(d - d') <= v_object dt
-/// and, when there are other lists, one of them, of age dt', has an item at distance
-/// <= theta_track_max + a_tyre dt' abs(dt' - dt) / 2 from d - w dt'.
+/// and, when there are other lists, one of them has an item that supports it.
 pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
     let (list, p) = (&lists[k], &scene.parameters);
     let before = &list.items[item];
     let w = velocity(d, before, &list.dt);
-    let supports = |other: &Usable| {
-        let off = a_tyre(&p.a_b) * &other.dt * (&other.dt - &list.dt).abs() / Real::from_integer(2);
-        had_it(scene, other, d, &w, &(&p.theta_track_max + off))
-    };
+    let supports =
+        |other: &Usable| had_it(scene, other, d, &w, &supports_within(scene, &list.dt, &other.dt));
     let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
     is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
         && (others.peek().is_none() || others.any(|(_, other)| supports(other)))

@@ -45,10 +45,13 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 }
 
 /// A lead whose gap is near `s_follow`, with nothing else that could fail; in the hardened profile at
-/// times near `s_react`, without detections, or beside a stage iii that ran (H-04).
+/// times near what H-04 asks for, without detections, or beside a stage iii that ran (H-04).
 fn at_gap(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
     let follows = cycle.profile == Profile::PAPER || draw.one_in(2);
-    let gap = if follows { obstacle::s_follow(&cycle) } else { obstacle::s_react(&cycle) };
+    if !follows && let Some(lead) = &mut cycle.lead {
+        lead.stamp_ns = cycle.now_ns - draw.pick(&[0, 0, 30_000_000, cycle.parameters.max_age_ns]);
+    }
+    let gap = if follows { obstacle::s_follow(&cycle) } else { obstacle::least_gap(&cycle) };
     let gap = draw.near(gap).max(0.0);
     if let Some(lead) = &mut cycle.lead {
         lead.gap = gap;

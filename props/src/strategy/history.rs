@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track};
 
-use super::base::seconds;
+use super::base::{a_tyre, seconds};
 use super::draw::Draw;
 
 /// Ages of the lists, ns, increasing: those of the keeper, fewer, or at the borders of being
@@ -75,7 +75,7 @@ pub fn item(track: &Track, (x, y): (f64, f64)) -> Detection {
 }
 
 /// Lists with one item of a thing that goes by (x, y) with this velocity at the time of the
-/// detections: the one nearest to 500 ms exact, the others off by about `theta_track_max` or 0.3 m, or left out.
+/// detections: the one nearest to 500 ms exact, the others off by about what SEEN-16 lets them be or 0.3 m, or left out.
 pub fn of_moving(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx, vy): (f64, f64)) {
     let seen_ns = cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns);
     let ages = ages(draw);
@@ -91,7 +91,9 @@ pub fn of_moving(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx
         if Some(dt_ns) == reference || with_support {
             if Some(dt_ns) != reference {
                 // So far it moved evenly (SEEN-19), or is borne out.
-                let limit = draw.pick(&[cycle.parameters.theta_track_max, 0.3]);
+                let bend = 0.5 * dt * (dt - reference.map_or(dt, seconds)).abs();
+                let borne = cycle.parameters.theta_track_max + a_tyre(&cycle.parameters) * bend;
+                let limit = draw.pick(&[borne, 0.3]);
                 let error = draw.near(limit);
                 let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);
                 (x, y) = (x + error * cos, y + error * sin);

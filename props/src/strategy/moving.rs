@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{Frame, seconds};
+use super::base::{Frame, a_tyre, seconds};
 use super::draw::Draw;
 use super::history;
 
@@ -100,7 +100,7 @@ fn explain(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
 }
 
 /// A detection behind the CAV that comes from the last item of each list, or just does not: about
-/// `theta_track_max` beside what supports it, at about `v_object`.
+/// as far beside what supports it as SEEN-16 lets it be, at about `v_object`.
 fn dispute(draw: &mut Draw<'_>, cycle: &mut Cycle, track: &Track) {
     let Some(seen_ns) = cycle.detections.as_ref().map(|list| list.stamp_ns) else { return };
     let dt_of = |list: &DetectionList| seconds(seen_ns - list.stamp_ns);
@@ -116,9 +116,11 @@ fn dispute(draw: &mut Draw<'_>, cycle: &mut Cycle, track: &Track) {
     let (cos, sin) = (cycle.ego.cos, cycle.ego.sin);
     let at = (cycle.ego.x - back * cos, cycle.ego.y - back * sin);
     let (vx, vy) = ((at.0 - origin.x) / dt, (at.1 - origin.y) / dt);
-    let error = draw.near(cycle.parameters.theta_track_max);
+    let (p, of_pair) = (cycle.parameters.clone(), dt);
     for list in &mut cycle.detection_history {
         let dt = seconds(seen_ns - list.stamp_ns);
+        let bend = 0.5 * dt * (dt - of_pair).abs();
+        let error = draw.near(p.theta_track_max + a_tyre(&p) * bend);
         let (x, y) = (at.0 - vx * dt + error * sin, at.1 - vy * dt - error * cos);
         list.items.push(history::item(track, (x, y)));
     }

@@ -177,10 +177,13 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
     ((v * v - lead * lead) / (2.0 * p.a_b)).max(0.0) + p.safety_time * v
 }
 
-/// `s_react`, rounded, m; the lead counts as standing when there is none.
-pub fn s_react(cycle: &Cycle) -> f64 {
-    let lead = cycle.lead.as_ref().map_or(0.0, |lead| lead.speed);
-    (s_stop(cycle) - lead * lead / (2.0 * a_tyre(&cycle.parameters))).max(0.0)
+/// `s_react + s_since`, rounded, m; without a lead that of one that stands and is measured now.
+pub fn least_gap(cycle: &Cycle) -> f64 {
+    let (speed, stamp_ns) =
+        cycle.lead.as_ref().map_or((0.0, cycle.now_ns), |lead| (lead.speed, lead.stamp_ns));
+    let (a_tyre, age) = (a_tyre(&cycle.parameters), (cycle.now_ns - stamp_ns) as f64 / 1e9);
+    let s_react = (s_stop(cycle) - speed * speed / (2.0 * a_tyre)).max(0.0);
+    s_react + cycle.ego.speed * age + a_tyre * age * age / 2.0
 }
 
 /// The object at a place of the CAV's rectangle's frame.

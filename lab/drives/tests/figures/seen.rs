@@ -2,7 +2,7 @@
 
 use mufasa_model::hardened::detection_history::{
     Seen, confirmed, is_disputed, list_of, may_come_from, nearest_to_reference, origin_limit, past,
-    seen as seen_of, usable,
+    seen as seen_of, supports_within, usable,
 };
 use mufasa_model::input::scene::{Object, Scene};
 use serde_json::{Value, json};
@@ -216,7 +216,7 @@ fn comes_from(sheet: &mut Sheet) {
         "detection_history": [seen(0.5, &then), seen(0.8, &[car(-4.2, 0.7)])],
     }));
     let (lists, d) = (usable(&scene), &scene.detections.as_ref().expect("given").items[0]);
-    let words = "Of d' = 1 another list has an item at d - w dt' (circle: theta_track_max). Of d' = 2 none has.";
+    let words = "Of d' = 1 another list has an item at d - w dt', as far off as tyres let it be (circle). Of d' = 2 none has.";
     sheet.panel(&look("May come from", words), |pen| {
         let at = object(pen, d, "det");
         pen.words(at, [0.0, -16.0], "m", "d");
@@ -224,7 +224,7 @@ fn comes_from(sheet: &mut Sheet) {
         for (i, item) in lists[0].items.iter().enumerate() {
             let [x, y] = xy(&item.frame.origin);
             let then = [0, 1].map(|axis| at[axis] - (at[axis] - [x, y][axis]) / 0.5 * 0.8);
-            pen.circle(then, scene.parameters.theta_track_max.near(), "limit");
+            pen.circle(then, supports_within(&scene, &lists[0].dt, &lists[1].dt).near(), "limit");
             pen.line(&[at, then], "limit");
             let words = if may_come_from(&scene, &lists, d, [0, i]) { "may" } else { "may not" };
             pen.words([x, y], [0.0, 26.0], "m", &format!("{}: {words}", i + 1));

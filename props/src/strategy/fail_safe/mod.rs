@@ -27,9 +27,13 @@ type Aimer = fn(&mut Draw<'_>, &mut Cycle, i64) -> Aimed;
 )]
 pub const AIMS: [(&str, Aimer); 13] = [
     ("standing", standing),
-    ("passed", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.passed(draw))),
+    ("passed", |draw, cycle, age_ns| {
+        shaped(draw, cycle, age_ns, |aim, draw| aim.passed(draw, 0.0))
+    }),
     ("coming", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.coming(draw))),
-    ("passed", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.passed(draw))),
+    ("braked before", |draw, cycle, age_ns| {
+        shaped(draw, cycle, age_ns, |aim, draw| aim.passed(draw, 0.5))
+    }),
     ("coming", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.coming(draw))),
     ("across from behind", |draw, cycle, age_ns| {
         shaped(draw, cycle, age_ns, |aim, draw| aim.along(draw))
@@ -85,9 +89,11 @@ pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
     let age_ns = draw.odd_ns(age_ns);
-    let (_, find) = AIMS[aim];
+    let (name, find) = AIMS[aim];
     let aimed = find(draw, cycle, age_ns);
-    if draw.one_in(3) {
+    if name == "braked before" {
+        seen_before(cycle, aimed);
+    } else if name != "passed" && draw.one_in(3) {
         moving::carry(draw, cycle, aimed);
     } else {
         with_track(draw, cycle, aimed);
@@ -175,17 +181,21 @@ impl Aim<'_> {
         (cav.frame.at(ahead, 0.0), e)
     }
 
-    /// It is by, braking since its list, when the window of a place begins, or nearly so.
-    fn passed(&self, draw: &mut Draw<'_>) -> Found {
+    /// It is by, braking since its list and for so many seconds before it, when the window of a place begins, or nearly so.
+    fn passed(&self, draw: &mut Draw<'_>, before: f64) -> Found {
         // Who passes the last place meets the CAV nowhere else.
         let last = self.path.places.len() - 1;
         let k = if draw.one_in(2) { last } else { draw.below(last + 1) };
         let (at, e) = self.corridor(draw, k, 1.0);
         let (a, t) = (a_tyre(&self.cycle.parameters), self.age + self.path.begin(k));
-        let speed = draw.pick(&[8.0, 25.0, 3.0, a * t, 0.5]).min(100.0);
-        let speed = draw.near(speed).max(0.0);
-        let braked =
-            if a * t <= speed { speed * t - 0.5 * a * t * t } else { speed * speed / (2.0 * a) };
+        let speed = draw.pick(&[8.0, 25.0, 3.0, a * t, 0.5]).min(60.0);
+        let lost = 0.5 * a * before;
+        let mean = if draw.one_in(4) { speed } else { speed + lost };
+        let speed = draw.near(mean).max(0.0);
+        // It is slower than its mean.
+        let least = (speed - lost).max(0.0);
+        let t = t.min(least / a);
+        let braked = least * t - 0.5 * a * t * t;
         let met = self.path.body(self.cycle, k).met_by(&self.at(at), e);
         let (_, by) = met.unwrap_or((0.0, 0.0));
         let by = draw.near(by);
@@ -359,6 +369,22 @@ fn with_track(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
     if cycle.configuration != Configuration::PlanRemote || draw.one_in(2) {
         cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
     }
+}
+
+/// As a detection that was seen 0.5 s before, and a track that explains it with the mean velocity since then.
+fn seen_before(cycle: &mut Cycle, aimed: Aimed) {
+    let stamp_ns = cycle.now_ns - aimed.age_ns;
+    // Wherever its rectangle points.
+    cycle.parameters.theta_velocity = 100.0;
+    cycle.detections = Some(DetectionList { stamp_ns, items: vec![detection(aimed)] });
+    cycle.tracks = Some(TrackList { stamp_ns, items: vec![track(aimed)] });
+    let before = |dt_ns: i64| {
+        let (dt, Frame { x, y, .. }, (vx, vy)) = (seconds(dt_ns), aimed.frame, aimed.velocity);
+        let frame = Frame { x: x - vx * dt, y: y - vy * dt, ..aimed.frame };
+        let items = vec![detection(Aimed { frame, ..aimed })];
+        DetectionList { stamp_ns: stamp_ns - dt_ns, items }
+    };
+    cycle.detection_history = [300_000_000, 500_000_000].map(before).into();
 }
 
 /// As a track with its own velocity.
