@@ -9,7 +9,6 @@ mod cells;
 mod close;
 mod disputed;
 mod extremes;
-mod gap;
 mod history;
 mod input;
 mod motions;

@@ -1,7 +1,6 @@
 //! The times that decide at places, by the error bounds of `Times`.
 
 use crate::hardened::h14_fail_safe::cover::{Clock, Object};
-use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego, Route};
 use crate::input::parameters::Parameters;
@@ -84,29 +83,4 @@ fn braking_errs_by_no_more_than_a_few_roundings() {
         let off = (Real::new(plain) - exact).magnitude();
         assert!(off <= 1e-270 + exact.off() + exact.value() * 1e-15, "{plain} {exact:?}");
     }
-}
-
-/// A pair may have braked since the earlier list: 20 m/s in the mean are 14.25 m/s at its end, and 4 m/s none. A
-/// track has its speed, and what stands none.
-#[test]
-fn pairs_brake_from_less_and_tracks_from_their_speed() {
-    let cycle = standing(0.0, Parameters::default());
-    let clock = Clock::new(&cycle);
-    let braked = |motion: &Motion, seconds: f64| {
-        let object = Object::new(&cycle.ego, motion, &clock);
-        object.speed * clock.braked(&object, seconds)
-    };
-    let is_near = |way: f64, expected: f64| assert!((way - expected).abs() < 1e-12, "{way}");
-    let still = MovingRectangle::cav(&cycle.ego, [1.0, 0.0]);
-    let [x, y] = still.centre;
-    let stands = Motion::new(still, 500_000_000);
-    let track = Motion::new(MovingRectangle { velocity: [0.0, 20.0], ..still }, 500_000_000);
-    let pair = |speed: f64| stands.coming_from([x, y - speed], 1_000_000_000, 1.0);
-    // Half a second old
-    is_near(braked(&track, 0.5), 20.0 - 5.75);
-    is_near(braked(&track, 100.0), 400.0 / 23.0);
-    is_near(braked(&pair(20.0), 0.5), 14.25 - 5.75);
-    is_near(braked(&pair(20.0), 100.0), 14.25 * 14.25 / 23.0);
-    is_near(braked(&pair(4.0), 0.5), 0.0);
-    is_near(braked(&stands, 100.0), 0.0);
 }
