@@ -70,7 +70,7 @@ static struct MufasaMonitor *make_monitor(void) {
   struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
   settings.requester.dt_max_ns = 120 * MS; /* two periods and the jitter: one lost message ends no session */
-  settings.stages.tau = 0.25; /* from the measurement to full braking: docs/assumptions.md, A-07 */
+  settings.stages.tau = 0.25; /* from now of a cycle to braking with a_b: docs/assumptions.md, A-07 */
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);
   check(mufasa_monitor_init(&settings, malloc(bytes), bytes, &monitor), "a monitor");

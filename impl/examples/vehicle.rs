@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = Settings::new(PERIOD);
     // Two periods and the largest jitter: one lost message does not end a session.
     settings.requester.dt_max_ns = 120_000_000;
-    // From the measurement to full braking (docs/assumptions.md, A-07).
+    // From `now` of a cycle to braking with a_b (docs/assumptions.md, A-07).
     settings.stages.tau = 0.25;
     let route = road();
     let memory = Memory {

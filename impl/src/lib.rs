@@ -26,7 +26,7 @@
 //! let mut settings = Settings::new(Duration::from_millis(50));
 //! // Two periods and the largest jitter: one lost message ends no session. The default, 100 ms, leaves no jitter.
 //! settings.requester.dt_max_ns = 120_000_000;
-//! // From the measurement to full braking: `tau` has 0.1 s for the brake of this vehicle.
+//! // From `now` of a cycle to braking with `a_b`: `tau` has 0.1 s for the brake of this vehicle.
 //! assert_eq!(settings.stages.tau, 0.25);
 //! let memory = Memory {
 //!     stations: &mut [StationRecord::FREE; 4],

@@ -27,8 +27,8 @@ pub struct Inputs<'c> {
 }
 
 impl<'c> Inputs<'c> {
-    /// Nothing but the CAV itself, and when its pose and speed were measured: from then on `tau` and `brake_by` count
-    /// (H-14.14). Source: `spec/monitor.md#monitor`.
+    /// Nothing but the CAV itself. `now` is the time that pose and speed are of: carry older ones forward to it
+    /// (H-14.14). `tau` and `brake_by` count from it. Source: `spec/monitor.md#monitor`.
     pub const fn new(now: Time, ego: Ego) -> Self {
         Self {
             now,
@@ -50,7 +50,7 @@ impl<'c> Inputs<'c> {
         self
     }
 
-    /// With the leading vehicle, measured at `stamp`; its speed in m/s, >= 0. A lead that is absent or not
+    /// With the leading vehicle, measured at `stamp`; its speed at that time in m/s, >= 0. A lead that is absent or not
     /// current means that nobody is ahead: then no stage looks at the gap, and no outcome shows it.
     /// Source: `spec/5-interfaces.md#cycle`.
     pub const fn lead(mut self, stamp: Time, gap: Gap, speed_mps: f64) -> Self {

@@ -285,7 +285,7 @@ pub enum MonitorError {
     },
     /// `stages.tau` is not above the nominal period, in the hardened profile.
     TauNotAbovePeriod {
-        /// Longest time from the measurement of pose and speed to full braking, s.
+        /// Longest time from `now` of a cycle to braking with at least `a_b`, s.
         tau: f64,
         /// The nominal period.
         period: Duration,

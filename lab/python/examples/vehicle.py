@@ -41,7 +41,7 @@ LOST = 2 * SECOND  # the cycle whose messages are lost
 
 
 def main() -> None:
-    # From the measurement to full braking (docs/assumptions.md, A-07).
+    # From now of a cycle to braking with a_b (docs/assumptions.md, A-07).
     # dt_max: two periods and the largest jitter, so that one lost message ends no session.
     monitor = Monitor(PERIOD, parameters={"tau": 0.25, "dt_max_ns": 120_000_000})
     # A straight road of 300 m, 6 m wide.

@@ -86,7 +86,7 @@ impl Object {
         let centre = minus(motion.now.centre, [ego.x, ego.y]);
         let [x, y] = motion.now.velocity;
         let speed = libm::sqrt(x * x + y * y);
-        // H-14.24
+        // H-14.24, A-09
         let lost = motion.from.map_or(0.0, |(_, dt_ns)| 0.5 * clock.a_tyre * seconds(dt_ns));
         let least = larger(speed - lost, 0.0);
         let at = MovingRectangle { centre, ..motion.now };

@@ -72,7 +72,7 @@ pub fn h04() -> String {
     });
     let words = format!(
         "v = 10 m/s. Stage v of the paper examines the points within s_b of the first one (large circles). H-04 adds the places \
-         (dots). The gap has to be above s_react: {}.",
+         (dots). A gap that is measured now has to be above s_react: {}.",
         gaps.join(", ")
     );
     let mut sheet = Sheet::new(1, [880.0, 170.0], 2);

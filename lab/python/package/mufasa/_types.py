@@ -111,7 +111,7 @@ class _Lead(NamedTuple):
 
 
 class Lead(_Lead):
-    """The leading vehicle: when it was measured, the gap, and its speed along the path, at least 0, m/s.
+    """The leading vehicle: when it was measured, the gap, and its speed along the path at that time, at least 0, m/s.
 
     Raises ``TypeError`` for a bare number as time or gap."""
 

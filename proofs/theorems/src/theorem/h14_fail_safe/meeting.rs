@@ -13,7 +13,7 @@ use crate::theorem::rectangle::vector;
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "r_b_is_at_most_what_an_object_goes_on_and_does_not_fall",
-        statement: "H-14: s <= t implies r_b(s) <= r_b(t), and r_b(t) <= abs(w) t",
+        statement: "H-14.24: s <= t implies r_b(s) <= r_b(t), and r_b(t) <= abs(w) t",
         domain: "all s, t >= 0, w, 0 <= w_least <= abs(w), a_tyre > 0",
         claim: || grows(|t| t),
         wrong: Wrong {
@@ -23,8 +23,8 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "an_object_that_brakes_from_any_time_on_is_between_r_b_and_going_on",
-        statement: "H-14: an object that goes on at a speed from w_least to abs(w) for any time, and then brakes with at \
-                    most a_tyre to a stop, is at each time t between r_b(t) and abs(w) t along w",
+        statement: "H-14.24: an object that goes on at a speed from w_least to abs(w) for any time, and then brakes with \
+                    at most a_tyre to a stop, is at each time t between r_b(t) and abs(w) t along w",
         domain: "all times >= 0, w, 0 <= w_least <= abs(w), a_tyre > 0",
         claim: || between(&Real::from_integer(1)),
         wrong: Wrong {
@@ -34,8 +34,8 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "no_object_is_slower_than_w_least",
-        statement: "H-14, H-04: the way of a vehicle in t is at most its speed after it times t plus a_tyre t^2 / 2: so at \
-                    t = 0, and still after any time of an acceleration of at least -a_tyre; so it is not slower than \
+        statement: "H-14.24, H-04.2: the way of a vehicle in t is at most its speed after it times t plus a_tyre t^2 / 2: so \
+                    at t = 0, and still after any time of an acceleration of at least -a_tyre; so it is not slower than \
                     w_least of its mean over dt = t",
         domain: "all times, speeds >= 0, a_tyre > 0",
         claim: || slower(&Real::from_integer(1)),
