@@ -7,19 +7,20 @@ from paper import disk_centres, disk_radius, points_within, s_b
 
 def poses(cycle, places):
     """The points that the paper names, then the places of H-14, from the CAV's reference point; which of
-    them the paper does not ask to examine beside other stages."""
+    them the paper does not ask to examine beside other stages; which are places."""
     ego = cycle["ego"]
     for point in points_within(cycle, s_b(cycle, ego["speed"])):
         pose = {**point, "x": point["x"] - ego["x"], "y": point["y"] - ego["y"]}
-        yield pose, cycle["configuration"] != "MotRemote"
-    yield from ((place.pose, True) for place in places)
+        yield pose, cycle["configuration"] != "MotRemote", False
+    yield from ((place.pose, True, True) for place in places)
 
 
-def stage_v(cycle, detections, places):
+def stage_v(cycle, detections, places, a):
     """H-06: disks against the squares of cells; the unknown counts unless detections are current.
     Where there is one, an occupied one has to meet the CAV's rectangle, too, and none of theirs, whose
-    half sizes are greater by 1/4 m; in MotRemote at the places alone."""
-    ego, grid, r = cycle["ego"], cycle["grid"], disk_radius(cycle) + EPS
+    half sizes are greater by 1/4 m; in MotRemote at the places alone. There the CAV's half width is
+    greater by a."""
+    ego, grid = cycle["ego"], cycle["grid"]
     items = cycle["detections"]["items"] if detections else []
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
     bitmaps = [grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]
@@ -28,13 +29,16 @@ def stage_v(cycle, detections, places):
     rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
             for k in range(grid["height"])]
     cycle = {**cycle, "grid": {**grid, "x": grid["x"] - ego["x"], "y": grid["y"] - ego["y"]}}
+    wide = {**cycle, "ego": {**ego, "width": ego["width"] + 2 * a}}
     offset = ego["center_offset"]
     seen = [rectangle(cycle["grid"], {**item, "x": item["x"] - ego["x"], "y": item["y"] - ego["y"]},
                       0.0, item, 0.25 - EPS)
             for item in items]
-    for pose, is_exact in poses(cycle, places):
+    for pose, is_exact, is_place in poses(cycle, places):
+        there = wide if is_place else cycle
+        r = disk_radius(there) + EPS
         if items and is_exact:
-            if rectangle_meets_cell(cycle, rows, pose, offset, r, seen):
+            if rectangle_meets_cell(there, rows, pose, offset, r, seen):
                 return False
             continue
         for u, v in disk_centres(cycle, pose, offset):

@@ -4,7 +4,8 @@
 
 use crate::hardened::detection_history::ambiguous_failure;
 use crate::hardened::h02_h05_h10_schedule::{no_obstacle_check, schedule};
-use crate::hardened::h14_fail_safe::{self, path, reach, road};
+use crate::hardened::h14_fail_safe::path::{self, Place};
+use crate::hardened::h14_fail_safe::{self, meeting, reach, road};
 use crate::hardened::{h01_matched_pairs, h04_gap, h06_closed_cells, h07_start, h11_steps};
 use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
@@ -127,12 +128,13 @@ fn behind_stage_iv(
     Ok(h14_fail_safe::failure(scene, trajectory))
 }
 
-/// H-04 gives stage v the places of H-14 behind the paper's, H-06 what collides.
+/// H-04 gives stage v the places of H-14 behind the paper's, where the CAV is as wide as there, H-06 what collides.
 fn grid_map(scene: &Scene, trajectory: &[Point], grid: &Grid) -> Option<Witness> {
     let places = || {
-        let points = v_grid_map::places(scene, trajectory).cloned().enumerate();
+        let points = v_grid_map::places(scene, trajectory).enumerate();
         let asks_places = scene.profile.has(HardenedRule::H04);
-        let places = asks_places.then(|| path::places(scene, trajectory).map(|place| place.pose));
+        let wider = |place: Place| meeting::wider(scene, trajectory, &place.pose);
+        let places = asks_places.then(|| path::places(scene, trajectory).map(wider));
         points.chain((trajectory.len()..).zip(places.into_iter().flatten()))
     };
     let first = |rule, hits: h06_closed_cells::Test| {

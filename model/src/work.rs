@@ -2,13 +2,14 @@
 //! needs more than 10^10 comparisons is no input of the model.
 
 use crate::hardened::detection_history;
+use crate::hardened::h14_fail_safe::meeting::widening;
 use crate::hardened::h14_fail_safe::{self, path};
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::assignment;
 use crate::numbers::real::Real;
 use crate::report::{InvalidInput, Stage};
-use crate::stages::v_grid_map::disk_radius;
+use crate::stages::v_grid_map::radius;
 
 /// The comparisons that the stages of a cycle may need.
 const MOST: i128 = 10_000_000_000;
@@ -61,8 +62,14 @@ pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
         Stage::Iii => points * tracks as i128,
         Stage::Iv => points * detections as i128,
         Stage::V => {
-            let cells = scene.grid.as_ref().map_or(0, |grid| cells(scene, grid));
-            (points + places(HardenedRule::H04)) * cells
+            let cells =
+                |half: &Real| scene.grid.as_ref().map_or(0, |grid| cells(scene, grid, half));
+            let half_width = &scene.ego.width / Real::from_integer(2);
+            let at_places = match places(HardenedRule::H04) {
+                0 => 0,
+                places => places * cells(&(&half_width + widening(scene, trajectory))),
+            };
+            points * cells(&half_width) + at_places
         }
     }
 }
@@ -75,10 +82,10 @@ pub fn of_fail_safe(scene: &Scene, trajectory: &[Point]) -> i128 {
         + beside_route * scene.route.cross_sections.len() as i128
 }
 
-/// The cells near the n disks of a place.
-fn cells(scene: &Scene, grid: &Grid) -> i128 {
+/// The cells near the n disks of a place, of a CAV of this half width.
+fn cells(scene: &Scene, grid: &Grid, half_width: &Real) -> i128 {
     let n = scene.parameters.n;
-    let r = disk_radius(&scene.ego.length, &scene.ego.width, &Real::from_integer(n.into()));
+    let r = radius(scene, half_width);
     let across = i128::from((Real::from_integer(2) * r / &grid.resolution).floor()) + 4;
     let near = |side: i64| across.min(i128::from(side));
     i128::from(n) * near(grid.width) * near(grid.height)

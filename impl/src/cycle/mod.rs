@@ -279,10 +279,10 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let [h04, h06] = [HardenedRule::H04, HardenedRule::H06].map(|rule| cycle.profile.has(rule));
         let places = if h04 { Some(places_of(cycle, trajectory)) } else { None };
         Ok(if h06 {
-            closed_cells(cycle, grid, (trajectory, places), self.current.detections)
+            closed_cells(cycle, grid, (trajectory, places.as_ref()), self.current.detections)
         } else {
             let found = trajectory_with_grid_map(cycle, trajectory, grid);
-            found.or_else(|| dilated_at_places(cycle, grid, places?))
+            found.or_else(|| dilated_at_places(grid, places.as_ref()?))
         })
     }
 }

@@ -1,11 +1,13 @@
 //! How many steps a cycle takes at most, by the sizes of its input (`spec/4-arithmetic.md#steps`): what a
 //! monitor compares with the time that it is given.
 
+use crate::hardened::h14_fail_safe::meeting::aside;
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
-use crate::input::cycle::Cycle;
+use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
+use crate::numbers::range::smaller;
 
 /// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one
 /// that is looked for in other lists (and 1 for each item of a list that is looked into), a segment of the
@@ -35,7 +37,7 @@ pub struct Counts {
     pub stations: u32,
     /// Places of the path (H-14); 0 where no rule looks at them.
     pub places: u32,
-    /// Rows of cells that a disk covers; 0 without a grid.
+    /// Rows of cells that a disk covers, the greatest one; 0 without a grid.
     pub disk_rows: u32,
     /// Rows of cells that the CAV is long.
     pub cav_rows: u32,
@@ -59,7 +61,7 @@ pub(crate) const LISTS: [List; 7] = [
 
 impl Counts {
     /// Memory for so many tracks, detections, cross sections and stations, and what it does not bound as it usually is: 128
-    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks.
+    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks, on its plan.
     pub(crate) fn lent(profile: Profile, lent: [usize; 4]) -> Self {
         let [tracks, detections, cross_sections, stations] = lent.map(count);
         Self {
@@ -99,7 +101,9 @@ impl Counts {
             let ego = &cycle.ego;
             let disks = f64::from(i32::try_from(cycle.parameters.n).unwrap_or(i32::MAX));
             let part = ego.length / disks;
-            let across = libm::sqrt(part * part + ego.width * ego.width);
+            // H-14.27
+            let width = ego.width + 2.0 * widening(cycle, points);
+            let across = libm::sqrt(part * part + width * width);
             let rows = |metres: f64| whole(metres / grid.resolution + 6.0);
             counts.disk_rows = rows(across);
             counts.cav_rows = rows(ego.length);
@@ -154,6 +158,13 @@ impl Counts {
 /// Whether a rule looks at the places of the path.
 pub(crate) const fn looks_along(profile: Profile) -> bool {
     profile.has(HardenedRule::H04) || profile.has(HardenedRule::H14)
+}
+
+/// By how much half the CAV is wider at the places of stage v, m: where H-07 asks that, stage v does not run with more.
+fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
+    let [h04, h07] = [HardenedRule::H04, HardenedRule::H07].map(|rule| cycle.profile.has(rule));
+    let aside = if h04 { aside(&cycle.ego, points.first()).magnitude() } else { 0.0 };
+    if h07 { smaller(aside, cycle.parameters.lateral_tolerance) } else { aside }
 }
 
 /// So many messages, offers, ticks and other events count between two cycles.

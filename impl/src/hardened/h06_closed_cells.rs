@@ -25,7 +25,7 @@ use crate::stages::v_grid_map::search::DiskSearch;
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
-    (trajectory, places): (&Trajectory<'_>, Option<Places<'_, '_>>),
+    (trajectory, places): (&Trajectory<'_>, Option<&Places<'_, '_>>),
     detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Braking);
@@ -48,7 +48,7 @@ struct Examined<'c, 'a> {
     cycle: &'c Cycle<'a>,
     /// The points that the paper names.
     points: &'c [TrajectoryPoint],
-    places: Option<Places<'c, 'a>>,
+    places: Option<&'c Places<'c, 'a>>,
     covered: Covered<'c, 'a>,
 }
 
@@ -61,8 +61,8 @@ impl Examined<'_, '_> {
         // H-06.2; H-06.4: in `MotRemote` at the points, too
         let at_places = !self.covered.items.is_empty();
         let at_points = at_places && self.cycle.configuration != Configuration::MotRemote;
-        let at = |asks_rectangle| {
-            let (cycle, grid) = (self.cycle, self.covered.grid);
+        let at = |cycle, asks_rectangle| {
+            let grid = self.covered.grid;
             let mut search = DiskSearch::new(cycle, grid);
             if asks_rectangle {
                 search.frame = CellFrame::with_rectangle(cycle, grid);
@@ -74,27 +74,28 @@ impl Examined<'_, '_> {
                 })
             };
             let hit = move |grid: &GridGeometry, disk: &Disk<'_>| {
-                self.hit(grid, disk, cells, asks_rectangle)
+                self.hit(cycle, (grid, disk), cells, asks_rectangle)
             };
             (search, is_free, hit)
         };
-        let (search, is_free, hit) = at(at_points);
+        let (search, is_free, hit) = at(self.cycle, at_points);
         let found = search.first(self.points, rule, is_free, hit);
         found.or_else(|| {
-            let (search, is_free, hit) = at(at_places);
-            search.first_place(self.places?, rule, is_free, hit)
+            let places = self.places?;
+            let (search, is_free, hit) = at(&places.wide, at_places);
+            search.first_place(places, rule, is_free, hit)
         })
     }
 
     /// What the disk hits.
     fn hit(
         &self,
-        grid: &GridGeometry,
-        disk: &Disk<'_>,
+        cycle: &Cycle<'_>,
+        (grid, disk): (&GridGeometry, &Disk<'_>),
         cells: &Bitmap<'_>,
         asks_rectangle: bool,
     ) -> Option<Hit> {
-        let Self { cycle, covered, .. } = self;
+        let covered = &self.covered;
         let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
         let mut latest = 0;
         grid.touched(disk, cells, |i, k| {
@@ -102,7 +103,7 @@ impl Examined<'_, '_> {
             if !asks_rectangle {
                 return grid.hit(disk, i, k);
             }
-            // H-06.3, with the CAV as wide as it is: H-14.27
+            // H-06.3
             if cav.certainly_apart(&plain_square(covered.grid, i, k))
                 || covered.has(i, k, &mut latest)
             {
@@ -118,10 +119,13 @@ impl Examined<'_, '_> {
     fn beyond_the_grid(&self) -> Option<Witness> {
         let grid = self.covered.grid;
         let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
-        let search = DiskSearch::new(self.cycle, grid);
+        let search = |cycle| DiskSearch::new(cycle, grid);
         let (rule, hit) = (Rule::Outside, GridGeometry::outside);
-        let found = search.first(self.points, rule, is_inside, hit);
-        found.or_else(|| search.first_place(self.places?, rule, is_inside, hit))
+        let found = search(self.cycle).first(self.points, rule, is_inside, hit);
+        found.or_else(|| {
+            let places = self.places?;
+            search(&places.wide).first_place(places, rule, is_inside, hit)
+        })
     }
 }
 

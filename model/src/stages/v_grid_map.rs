@@ -20,14 +20,14 @@ pub fn trajectory_with_grid_map(
     trajectory: &[Point],
     grid: &Grid,
 ) -> Option<Witness> {
-    let places = places(scene, trajectory).cloned().enumerate();
+    let places = places(scene, trajectory).enumerate();
     first_hit(scene, grid, Rule::Occupied, places, |disk| dilated(scene, grid, disk))
 }
 
-/// The poses within s_b(v_now).
-pub fn places<'a>(scene: &Scene, trajectory: &'a [Point]) -> impl Iterator<Item = &'a Frame> {
+/// The CAV at the poses within s_b(v_now).
+pub fn places(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Rectangle> {
     let s_b = s_b(&scene.ego.v_now, &scene.parameters.a_b);
-    points_within(scene, trajectory, &s_b).iter().map(|point| &point.pose)
+    points_within(scene, trajectory, &s_b).iter().map(|point| cav(scene, &point.pose))
 }
 
 /// A disk of the CAV at one of the places that are examined.
@@ -48,13 +48,11 @@ pub fn first_hit(
     scene: &Scene,
     grid: &Grid,
     rule: Rule,
-    mut places: impl Iterator<Item = (usize, Frame)>,
+    mut places: impl Iterator<Item = (usize, Rectangle)>,
     hits: impl Fn(&Disk) -> Option<Hit>,
 ) -> Option<Witness> {
-    let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
-    let r = disk_radius(&ego.length, &ego.width, &n);
-    places.find_map(|(point, pose)| {
-        let cav = cav(scene, &pose);
+    places.find_map(|(point, cav)| {
+        let r = radius(scene, &cav.half_width);
         disk_centres(scene, grid, &cav.frame).iter().enumerate().find_map(|(d, centre)| {
             let Hit { cell, distance } = hits(&Disk { point, cav: &cav, centre, r: &r })?;
             let witness = Witness::new(rule, &distance, &r).at_point(point);
@@ -78,6 +76,12 @@ pub fn disk_offset(i: &Real, n: &Real, length: &Real) -> Real {
 /// r = sqrt((L/n)^2 + W^2) / 2, m (S5-02).
 pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
     ((length / n).square() + width.square()).sqrt() / Real::from_integer(2)
+}
+
+/// The radius for a CAV of this half width, m.
+pub fn radius(scene: &Scene, half_width: &Real) -> Real {
+    let n = Real::from_integer(scene.parameters.n.into());
+    disk_radius(&scene.ego.length, &(Real::from_integer(2) * half_width), &n)
 }
 
 /// The centres of the n disks on the long axis of the CAV's rectangle, in the frame of the grid.

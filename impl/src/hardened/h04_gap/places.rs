@@ -1,6 +1,7 @@
 //! Stage v where the CAV is until it stops, behind the points that the paper names (H-04 of
 //! `spec/hardened/H-04.md`).
 
+use crate::hardened::h14_fail_safe::meeting::aside;
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
@@ -10,24 +11,37 @@ use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
 use crate::stages::v_grid_map::search::DiskSearch;
 
-/// The path whose places are examined behind the points, and how many points the trajectory has.
-pub(crate) type Places<'c, 'a> = (Nodes<'c, 'a>, usize);
+/// Above what five roundings lose.
+const UP: f64 = 1.0 + 4.0 * f64::EPSILON;
+
+/// The path whose places are examined behind the points.
+pub(crate) struct Places<'c, 'a> {
+    nodes: Nodes<'c, 'a>,
+    /// How many points the trajectory has.
+    points: usize,
+    /// With a CAV that is as wide as at places.
+    pub(crate) wide: Cycle<'a>,
+}
 
 /// Those of a trajectory.
 pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
-    (Nodes::new(cycle, trajectory.points), trajectory.points.len())
+    let widening = aside(&cycle.ego, trajectory.points.first());
+    let more = 2.0 * (widening.value() + widening.off());
+    // H-14.27; rounded up, and by nothing where the trajectory begins at the CAV
+    let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };
+    Places {
+        nodes: Nodes::new(cycle, trajectory.points),
+        points: trajectory.points.len(),
+        wide: Cycle { ego: Ego { width, ..cycle.ego }, ..*cycle },
+    }
 }
 
 /// As the paper examines the points.
-pub(crate) fn dilated_at_places(
-    cycle: &Cycle<'_>,
-    grid: &Grid<'_>,
-    places: Places<'_, '_>,
-) -> Option<Witness> {
-    let (search, dilated) = (DiskSearch::new(cycle, grid), DilatedCells::new(grid));
+pub(crate) fn dilated_at_places(grid: &Grid<'_>, places: &Places<'_, '_>) -> Option<Witness> {
+    let (search, dilated) = (DiskSearch::new(&places.wide, grid), DilatedCells::new(grid));
     search.first_place(
         places,
         Rule::Occupied,
@@ -37,11 +51,11 @@ pub(crate) fn dilated_at_places(
 }
 
 impl DiskSearch<'_, '_> {
-    /// As `first`, at the places of a path, which a witness counts as points behind that many. The
+    /// As `first`, at the places of a path, which a witness counts as points behind the others. The
     /// places of a piece lie on a line with one heading, and are in the band of the first and the last.
     pub(crate) fn first_place(
         &self,
-        (nodes, points): Places<'_, '_>,
+        &Places { nodes, points, .. }: &Places<'_, '_>,
         rule: Rule,
         is_free: impl Fn(&Band) -> bool,
         hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
@@ -49,7 +63,7 @@ impl DiskSearch<'_, '_> {
         if self.lines_are_free(nodes, &is_free) {
             return None;
         }
-        // H-04.1; the disks stand at the pose itself: H-14.27
+        // H-04.1
         Path::new(nodes).pieces().find_map(|piece| {
             let [cos, sin] = piece.heading();
             let is_free = |run: [i64; 2]| {

@@ -275,7 +275,7 @@ const INNER: f64 = 0.3;
 
 /// By how much half the CAV is wider (H-14.26), m: as far as it is aside of the trajectory's first
 /// point. One that begins beside it does not say where it joins.
-fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
+pub(crate) fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
     //
     start.map_or(Real::ZERO, |start| {
         let from = Vector::between([start.x, start.y], [ego.x, ego.y]);

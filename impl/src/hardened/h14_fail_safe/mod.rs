@@ -3,7 +3,7 @@
 
 mod beside;
 mod cover;
-mod meeting;
+pub(crate) mod meeting;
 mod motion;
 mod motions;
 mod nearest;

@@ -31,7 +31,6 @@ const NOT_SHOWN: [(&str, &str); 16] = [
     ("H-14.8", "tests of the model ask for the heading of the last place"),
     ("H-14.9", "each witness of a place"),
     ("H-14.14", "of which time pose and speed are is in no record"),
-    ("H-14.27", "a test of the model compares the grid"),
     ("H-14.50", "each witness of the rule"),
     ("SEEN-04", "a term: H-01.1 has its vectors"),
     ("SEEN-05", "a term: SEEN-06 has its vectors"),

@@ -68,7 +68,7 @@ fn margin(scene: &Scene, motion: &Motion) -> Real {
 }
 
 /// abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
-fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
+pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
     let Frame { origin: x_0, direction: h_0 } = &trajectory[0].pose;
     (&scene.ego.position - x_0).cross(h_0).abs()
 }
