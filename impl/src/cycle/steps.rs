@@ -1,8 +1,7 @@
 //! How many steps a cycle takes at most, by the sizes of its input (`spec/4-arithmetic.md#steps`): what a
 //! monitor compares with the time that it is given.
 
-use crate::hardened::h14_fail_safe::meeting::aside;
-use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
 use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;

@@ -1,8 +1,7 @@
 //! Stage v where the CAV is until it stops, behind the points that the paper names (H-04 of
 //! `spec/hardened/H-04.md`).
 
-use crate::hardened::h14_fail_safe::meeting::aside;
-use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
 use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use crate::report::{Rule, Witness};

@@ -9,7 +9,7 @@ use crate::cycle::steps::{BOX, MOTION, PIECE, PLACE};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
-use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
 use crate::hardened::h14_fail_safe::path::{Path, Piece, Place, Start};
 use crate::hardened::h14_fail_safe::spot::Spot;
 use crate::hardened::h14_fail_safe::work::Work;
@@ -272,16 +272,6 @@ impl<'c, 'a> Places<'c, 'a> {
 
 /// By how much the front of the inner rectangle is moved in, and its other sides at most, m.
 const INNER: f64 = 0.3;
-
-/// By how much half the CAV is wider (H-14.26), m: as far as it is aside of the trajectory's first
-/// point. One that begins beside it does not say where it joins.
-pub(crate) fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
-    //
-    start.map_or(Real::ZERO, |start| {
-        let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
-        from.cross(vector([start.cos, start.sin])).abs()
-    })
-}
 
 /// An object with error bounds.
 struct Exact {

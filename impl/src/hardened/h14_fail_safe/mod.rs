@@ -3,7 +3,7 @@
 
 mod beside;
 mod cover;
-pub(crate) mod meeting;
+mod meeting;
 mod motion;
 mod motions;
 mod nearest;
