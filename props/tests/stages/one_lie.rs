@@ -50,7 +50,7 @@ fn objects(draw: &mut Draw<'_>, brake: bool) -> Vec<Object> {
     for _ in 0..draw.between(2, 5) {
         let at = [draw.range(-12.0, 12.0).round(), draw.range(-12.0, 12.0).round()];
         let speed = |draw: &mut Draw<'_>| draw.pick(&[0.0, 0.0, -10.0, 8.0, 4.0, -2.0]);
-        let v = [speed(draw), speed(draw)];
+        let v: [f64; 2] = [speed(draw), speed(draw)];
         // As hard as tyres hold.
         let braked = if brake && draw.one_in(2) { 11.5 / v[0].hypot(v[1]).max(1.0) } else { 0.0 };
         if objects.iter().all(|other| other.at.map(f64::to_bits) != at.map(f64::to_bits)) {
