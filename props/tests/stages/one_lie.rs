@@ -61,7 +61,7 @@ fn objects(draw: &mut Draw<'_>, brake: bool) -> Vec<Object> {
 }
 
 /// What is said of one object: about where it is, and that in a list it was where another one was, or anything.
-fn lie(draw: &mut Draw<'_>, objects: &[Object], ages_ms: &[u16; 3]) -> (usize, Object) {
+fn lie(draw: &mut Draw<'_>, objects: &[Object], ages_ms: [u16; 3]) -> (usize, Object) {
     let about = draw.below(objects.len());
     let aside = draw.pick(&[[0.0, 0.0], [0.5, 0.0], [0.0, -0.75], [0.25, 0.25]]);
     let at = [objects[about].at[0] + aside[0], objects[about].at[1] + aside[1]];
@@ -82,7 +82,7 @@ fn cycle(draw: &mut Draw<'_>, objects: &[Object], lies: usize) -> Cycle {
     let frame = Frame { x: 100.0, y: 100.0, cos: 1.0, sin: 0.0 };
     let mut cycle = base::cycle(draw, frame, Profile::HARDENED, AllRemote);
     let ages_ms = draw.pick(&AGES_MS);
-    let lies: Vec<(usize, Object)> = (0..lies).map(|_| lie(draw, objects, &ages_ms)).collect();
+    let lies: Vec<(usize, Object)> = (0..lies).map(|_| lie(draw, objects, ages_ms)).collect();
     let is_true = |i: &usize| lies.iter().all(|(about, _)| about != i);
     let told: Vec<usize> = (0..objects.len()).filter(|i| !draw.one_in(2) && is_true(i)).collect();
     let items = told.into_iter().map(|i| objects[i]).chain(lies.iter().map(|(_, lie)| *lie));
