@@ -203,7 +203,7 @@ fn a_vehicle_that_brakes_harder_meets_who_one_that_brakes_with_a_b_lets_pass() {
         ("F-54-harder", 0.0, [8.0, 0.0], [11.0, 0.0], 800, 6.2),
         ("F-54-smaller", 0.0, [4.0, 0.0], [8.0, 0.0], 900, 7.8),
         ("F-54-object", 0.1, [8.0, 8.0], [8.0, 11.0], 931, 8.4),
-        ("F-46-speeds-up", 0.0, [8.0, 0.0], [8.0, -4.0], 596, 10.2),
+        ("F-46-speeds-up", 0.0, [8.0, 0.0], [8.0, -4.0], 652, 9.8),
         ("F-55-crosses-true", 0.1, [8.0, 0.0], [8.0, 8.0], 931, 8.4),
     ] {
         let line = lines.lines().find(|it| it.contains(&format!("\"id\": \"{id}\"")));

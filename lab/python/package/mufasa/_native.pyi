@@ -301,7 +301,7 @@ class Monitor:
         local_trajectory: Trajectory | None = None,
     ) -> Decision:
         """Decides on what the CAV measured and what stations sent, and tells the requester: to be called
-        in each period, offloading or not. ``now`` is the time that pose and speed are of. What is not given is missing.
+        in each period, offloading or not. What is not given is missing.
 
         Raises ``UnreadableInputs`` when something is of the wrong kind; the monitor has fallen back then,
         at ``now`` (of the wrong kind itself: at the time of the last call), and the error has the actions."""
