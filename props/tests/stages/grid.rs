@@ -29,6 +29,23 @@ fn the_witness_beside_stage_iv() {
         .assert_aimed(&["v", "safe"]);
 }
 
+/// The CAV is beside its plan, and narrower by as much as H-14.27 makes it wider: where it is now it decides as before.
+#[test]
+fn beside_the_plan() {
+    let beside = |draw: &mut Draw<'_>, profile| {
+        let mut cycle = grid::cycle(draw, profile);
+        let aside = draw.pick(&[0.3, -0.2, 0.1, -1e-3]);
+        cycle.ego.width -= 2.0 * f64::abs(aside);
+        let (x, y) = (-aside * cycle.ego.sin, aside * cycle.ego.cos);
+        for point in cycle.trajectory.iter_mut().flat_map(|it| &mut it.points) {
+            (point.x, point.y) = (point.x + x, point.y + y);
+        }
+        cycle
+    };
+    agree("stage v beside the plan", Profile::HARDENED, beside, near_threshold)
+        .assert_aimed(&["v", "safe"]);
+}
+
 /// What is drawn beside stage iv: a disk reaches an occupied cell, and the CAV's rectangle touches
 /// it or does not, within 1e-5 m; in each configuration, with stage iv and without.
 #[test]

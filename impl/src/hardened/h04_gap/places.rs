@@ -10,7 +10,7 @@ use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
 use crate::stages::v_grid_map::search::DiskSearch;
 
-/// Above what five roundings lose.
+/// More than what the rounding of a sum and a product loses.
 const UP: f64 = 1.0 + 4.0 * f64::EPSILON;
 
 /// The path whose places are examined behind the points.
@@ -27,8 +27,7 @@ pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
-    let widening = aside(&cycle.ego, trajectory.points.first());
-    let more = 2.0 * (widening.value() + widening.off());
+    let more = 2.0 * aside(&cycle.ego, trajectory.points.first()).magnitude();
     // H-14.27; rounded up, and by nothing where the trajectory begins at the CAV
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };
     Places {
