@@ -73,14 +73,9 @@ impl Composed {
         CompositionAnswer::new(self.id.clone(), self.answer.clone())
     }
 
-    /// The services and links that some composition uses; without a composition everything that
-    /// could provide something for the goal.
+    /// The services and links that some composition uses; without a composition the goal alone.
     pub fn graph(&self) -> Graph {
-        if self.answer.compositions.is_empty() {
-            Graph::of_feeds(&self.services, &self.task.goal)
-        } else {
-            Graph::of_compositions(&self.services, &self.task.goal, &self.answer.compositions)
-        }
+        Graph::of_compositions(&self.services, &self.task.goal, &self.answer.compositions)
     }
 
     /// One row per composition, below a line that says how many there are, or why there is none.

@@ -111,7 +111,6 @@ fn case(variant: Variant, offered: Offered, attacks: Vec<Attack>) -> Case {
         variant,
         tau_s: TAU_S,
         drives_on: false,
-        has_no_lead: false,
         offered,
         route: 0,
         scenario: 0,

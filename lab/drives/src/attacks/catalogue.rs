@@ -156,34 +156,9 @@ impl Attack {
         self.into()
     }
 
-    /// Its name in the closed loop before there was one list: ids of runs and kept files have it.
-    pub const fn older_name(self) -> Option<&'static str> {
-        match self {
-            Self::WrongMap => Some("map-replaced"),
-            Self::EmptyTracks => Some("tracks-empty"),
-            Self::GhostTracks => Some("ghosts"),
-            Self::MissingTrack => Some("one-removed"),
-            Self::HeldBack => Some("late"),
-            _ => None,
-        }
-    }
-
-    /// The one of these with this name, or else with this older one: `late` is [`Self::Late`] on a drive, and
-    /// [`Self::HeldBack`] in the loop.
+    /// The one of these with this name.
     pub fn named(name: &str, of: &[Self]) -> Option<Self> {
-        let is = |it: &&Self| it.name() == name;
-        let was = |it: &&Self| it.older_name() == Some(name);
-        of.iter().find(is).or_else(|| of.iter().find(was)).copied()
-    }
-
-    /// An id of a run, or its beginning, with the present names of attacks in the place of older ones.
-    pub fn renamed(id: &str) -> String {
-        let word = |word: &str| {
-            let (name, end) = word.split_at(word.find(['/', '+']).unwrap_or(word.len()));
-            let name = Self::named(name, &Self::IN_THE_LOOP).map_or(name, |it| it.name());
-            format!("{name}{end}")
-        };
-        id.split_inclusive(['/', '+']).map(word).collect()
+        of.iter().find(|it| it.name() == name).copied()
     }
 }
 
@@ -192,34 +167,5 @@ impl TryFrom<String> for Attack {
 
     fn try_from(name: String) -> Result<Self, String> {
         Self::named(&name, &Self::IN_THE_LOOP).ok_or_else(|| format!("`{name}` is no attack"))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_name_stands_for_two() {
-        for of in [&Attack::ON_DRIVES[..], &Attack::IN_THE_LOOP] {
-            for attack in of {
-                assert_eq!(Attack::named(attack.name(), of), Some(*attack));
-                let older = attack.older_name().map(|name| Attack::named(name, of));
-                assert!(older.is_none_or(|it| it == Some(*attack)), "{attack:?}");
-            }
-        }
-        assert_eq!(Attack::named("late", &Attack::ON_DRIVES), Some(Attack::Late));
-    }
-
-    #[test]
-    fn older_names_are_understood_in_ids_and_files() {
-        let id = "left-out/paper/noisy+nothing+one-removed+mot/0/1";
-        assert_eq!(Attack::renamed(id), "left-out/paper/noisy+nothing+missing-track+mot/0/1");
-        assert_eq!(Attack::renamed("attacks/paper/late"), "attacks/paper/held-back");
-        let read = |text: &str| serde_json::from_str::<Attack>(text).ok();
-        assert_eq!(read("\"tracks-empty\""), Some(Attack::EmptyTracks));
-        assert_eq!(read("\"empty-tracks\""), Some(Attack::EmptyTracks));
-        assert_eq!(read("\"late\""), Some(Attack::HeldBack));
-        assert_eq!(read("\"slide\""), None, "the loop has none");
     }
 }

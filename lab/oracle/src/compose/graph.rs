@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mufasa_model::services::composition::Composition;
-use mufasa_model::services::service::{CAV, Service, ServiceSet};
+use mufasa_model::services::service::{CAV, ServiceSet};
 
 /// Services and who provides for whom; the goal is node 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,29 +49,6 @@ impl Graph {
                 .entry((&link.provider, &link.consumer))
                 .or_default()
                 .insert(link.interface.as_str());
-        }
-        Self::new(services, goal, &links)
-    }
-
-    /// Everything that could provide something for the goal, directly or not.
-    pub fn of_feeds(services: &ServiceSet, goal: &str) -> Self {
-        let mut links: Links<'_> = BTreeMap::new();
-        let mut reached: BTreeSet<&str> = BTreeSet::new();
-        let mut open: Vec<&Service> = services.get(goal).into_iter().collect();
-        while let Some(consumer) = open.pop() {
-            if !reached.insert(&consumer.id) {
-                continue;
-            }
-            for provider in services.iter().filter(|service| service.feeds(consumer)) {
-                let given: BTreeSet<&str> = provider
-                    .guarantees
-                    .iter()
-                    .filter(|interface| consumer.requires.contains(interface))
-                    .map(String::as_str)
-                    .collect();
-                links.insert((&provider.id, &consumer.id), given);
-                open.push(provider);
-            }
         }
         Self::new(services, goal, &links)
     }

@@ -8,7 +8,7 @@ use mufasa_sim::experiment::select::{Options, Shard};
 use super::falsify::FalsifyArguments;
 use super::margins::MarginsArguments;
 use super::parts::shard;
-use super::replay::{ReplayArguments, run_id};
+use super::replay::ReplayArguments;
 use super::scenes::ScenesArguments;
 use crate::limits::whole;
 
@@ -93,7 +93,7 @@ pub struct SizeArguments {
     #[arg(long)]
     pub without_precheck: bool,
     /// Only runs whose id is this or begins with these parts, such as failures/paper/empty-tracks/0/3.
-    #[arg(long, value_name = "ID", value_parser = run_id)]
+    #[arg(long, value_name = "ID")]
     pub only: Option<String>,
     /// Only one of N parts of the runs, such as 2/8, for other machines to make the others; `mufasa merge` puts
     /// the parts together.

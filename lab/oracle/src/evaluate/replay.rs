@@ -1,11 +1,10 @@
 //! One run as a page (`mufasa_sim::replay`).
 
-use std::convert::Infallible;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use mufasa_records::files;
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
@@ -37,7 +36,7 @@ pub struct ReplayArguments {
     pub found: Option<PathBuf>,
     /// A run of an experiment by its id, such as failures/paper/empty-tracks/0/3. With `--scenarios`,
     /// `--vehicles` and `--seed` as they were given to the experiment.
-    #[arg(long, value_name = "ID", value_parser = run_id, conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
+    #[arg(long, value_name = "ID", conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
     pub run: Option<String>,
     /// Scenarios of the experiment [default: that of the experiment].
     #[arg(long, value_name = "N", requires = "run", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
@@ -209,15 +208,8 @@ impl Watcher for Both {
 }
 
 pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {
-    let value = |kind: Kind| PossibleValue::new(kind.name()).aliases(kind.older_name());
-    PossibleValuesParser::new(Kind::IN_THE_LOOP.map(value))
+    PossibleValuesParser::new(Kind::IN_THE_LOOP.map(Kind::name))
         .try_map(|given| Kind::named(&given, &Kind::IN_THE_LOOP).ok_or("unknown attack"))
-}
-
-/// The id of a run, or its beginning; attacks may have their older names.
-#[expect(clippy::unnecessary_wraps, reason = "as clap parses")]
-pub(super) fn run_id(given: &str) -> Result<String, Infallible> {
-    Ok(Kind::renamed(given))
 }
 
 pub(super) fn variant() -> impl TypedValueParser<Value = Variant> {

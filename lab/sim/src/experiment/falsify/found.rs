@@ -28,9 +28,6 @@ pub struct Case {
     /// Whether control drives on along what was verified however long nothing newer comes (F-47).
     #[serde(default)]
     pub drives_on: bool,
-    /// Whether nothing measures the gap to the leading vehicle.
-    #[serde(default)]
-    pub has_no_lead: bool,
     /// What the station offers.
     pub offered: Offered,
     /// Which of the ego's routes, from 0.
@@ -87,7 +84,6 @@ impl Case {
         settings.attacks.clone_from(&self.attacks);
         settings.stages.tau = self.tau_s;
         settings.drives_on = self.drives_on;
-        settings.has_no_lead = self.has_no_lead;
         settings.requester.t_wait_ns = T_WAIT_NS;
         settings.errors.position = POSITION_M;
         let axes = Axes { offered: self.offered, ..Axes::default() };

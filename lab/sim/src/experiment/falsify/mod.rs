@@ -217,13 +217,12 @@ impl<'a, C: Caller> Search<'a, C> {
             let route = usize::from(index % 2 == 1);
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
-            let (drives_on, has_no_lead) = (false, false);
+            let drives_on = false;
             let (tau_s, attacks, map) = (TAU_S, Vec::new(), town.id);
             let case = Case {
                 variant,
                 tau_s,
                 drives_on,
-                has_no_lead,
                 offered,
                 route,
                 scenario,
