@@ -172,7 +172,7 @@ BUGS = [
     hardened("gap-of-now", "hardened.py", "s_react + s_since + EPS", "s_react + EPS",
              "H-04: the gap to a lead is taken for that of now"),
     hardened("grid-as-wide-as-the-cav", "hardened.py", "rule.places, rule.a)", "rule.places, 0)",
-             "H-14: in the grid a CAV beside its plan is as wide as on it"),
+             "H-14.27: in the grid a CAV beside its plan is as wide as on it"),
     hardened("supports-on-the-mean-alone", "detection_history.py", "other * abs(other - dt) / 2", "0",
              "SEEN-16: a list supports a pair within theta_track_max of its mean motion, however hard it braked"),
     hardened("window-to-progress", "fail_safe.py", "self.stop.last(after.length) if",

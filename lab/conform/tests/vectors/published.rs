@@ -60,7 +60,7 @@ fn requirements() -> BTreeSet<String> {
     names
 }
 
-/// Ids of the pages of rules: `H-04.1`, `SEEN-02`.
+/// Ids of the pages of rules.
 fn of_rules() -> BTreeSet<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/hardened");
     let pages = fs::read_dir(folder).expect("spec/hardened/ is there");
