@@ -29,12 +29,6 @@
 // Third number.
 #define MUFASA_VERSION_PATCH 0
 
-// An index needs memory aligned to this many bytes, as `malloc` gives it.
-#define MUFASA_DETECTION_INDEX_ALIGN 8
-
-// No more indexes are looked at.
-#define MUFASA_MAX_DETECTION_INDEXES 64
-
 // Bytes of the texts of MufasaInvalidInput, the closing 0 included.
 #define MUFASA_TEXT_BYTES 96
 
@@ -43,9 +37,6 @@
 
 // One event never makes more actions than this.
 #define MUFASA_MAX_ACTIONS 8
-
-// A requester needs memory aligned to this many bytes, as `malloc` gives it.
-#define MUFASA_REQUESTER_ALIGN 8
 
 // A monitor needs memory aligned to this many bytes, as `malloc` gives it.
 #define MUFASA_MONITOR_ALIGN 8
@@ -70,37 +61,33 @@ enum MufasaStatus
   // The memory is smaller than the function that tells its size says, a number of things that it is
   // to hold is 0, or what was given is longer than that.
   MUFASA_STATUS_MEMORY_TOO_SMALL = 4,
-  // The array for actions has fewer than MUFASA_MAX_ACTIONS places.
-  MUFASA_STATUS_TOO_FEW_ACTIONS = 5,
   // A parameter of the requester, or a number of sessions, is below 0, or the latter 2^63 - 1, after which
   // there is no session.
-  MUFASA_STATUS_NEGATIVE_PARAMETER = 6,
+  MUFASA_STATUS_NEGATIVE_PARAMETER = 5,
   // An event names a station below 1.
-  MUFASA_STATUS_INVALID_STATION = 7,
+  MUFASA_STATUS_INVALID_STATION = 6,
   // An offer of a station for which the table has no place.
-  MUFASA_STATUS_TABLE_FULL = 8,
-  // A list of detections of which there is no index, as it is not valid.
-  MUFASA_STATUS_INVALID_LIST = 9,
+  MUFASA_STATUS_TABLE_FULL = 7,
   // A parameter of the stages is outside its domain.
-  MUFASA_STATUS_INVALID_PARAMETER = 10,
+  MUFASA_STATUS_INVALID_PARAMETER = 8,
   // The nominal period is not above 0.
-  MUFASA_STATUS_INVALID_PERIOD = 11,
+  MUFASA_STATUS_INVALID_PERIOD = 9,
   // dt_max is not above the nominal period, so that any jitter would end a session.
-  MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD = 12,
+  MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD = 10,
   // A value of the route is outside its domain.
-  MUFASA_STATUS_INVALID_ROUTE = 13,
+  MUFASA_STATUS_INVALID_ROUTE = 11,
   // A time above 0 and below 1 ms, or t_wait above 0 and below 1 s: it is taken for one in another unit
   // than nanoseconds.
-  MUFASA_STATUS_TIME_TOO_SHORT = 14,
+  MUFASA_STATUS_TIME_TOO_SHORT = 12,
   // max_age is below l_max, so that no cycle could use some of the results that are in time.
-  MUFASA_STATUS_MAX_AGE_BELOW_L_MAX = 15,
+  MUFASA_STATUS_MAX_AGE_BELOW_L_MAX = 13,
   // tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
   // cycle, the first that can fail.
-  MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 16,
+  MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 14,
   // A cycle with lists as long as they may become could take longer than check_time.
-  MUFASA_STATUS_TOO_SLOW = 17,
+  MUFASA_STATUS_TOO_SLOW = 15,
   // A setting that no road vehicle has, and that is not named in `meant`.
-  MUFASA_STATUS_UNUSUAL = 18,
+  MUFASA_STATUS_UNUSUAL = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -254,6 +241,42 @@ typedef uint32_t MufasaRule;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// Why a message of a station was dropped; of several reasons the first in this order, except that
+// OTHER_SESSION comes before TOO_LONG.
+enum MufasaDropReason
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It was not dropped, or the call was about no message.
+  MUFASA_DROP_REASON_NONE = 0,
+  // It has more tracks or points than the settings say. It is no arrival: a station that goes on so is
+  // silent, and its session ends after dt_max.
+  MUFASA_DROP_REASON_TOO_LONG = 1,
+  // It is not of the running session of its group, or there is none.
+  MUFASA_DROP_REASON_OTHER_SESSION = 2,
+  // It was generated after it arrived: the clocks cannot be trusted. The session has ended.
+  MUFASA_DROP_REASON_FROM_THE_FUTURE = 3,
+  // Its latency is above l_max. The session has ended.
+  MUFASA_DROP_REASON_LATE = 4,
+  // Its stamp is more than max_age ago, so that no cycle can use it. It is no arrival.
+  MUFASA_DROP_REASON_TOO_OLD = 5,
+  // For more than dt_max no cycle has had an element of the session that was current. It is no arrival:
+  // the session ends after dt_max.
+  MUFASA_DROP_REASON_STARVED = 6,
+  // The time since the last arrival is above dt_max. The session has ended.
+  MUFASA_DROP_REASON_AFTER_SILENCE = 7,
+  // It is not generated later than the last one that was used: repeated, or overtaken.
+  MUFASA_DROP_REASON_NOT_NEWER = 8,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaDropReason MufasaDropReason;
+#else
+typedef uint32_t MufasaDropReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // What the requester does; the comment says which fields of MufasaAction it uses.
 enum MufasaActionType
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -295,6 +318,40 @@ enum MufasaGroup
 typedef enum MufasaGroup MufasaGroup;
 #else
 typedef uint32_t MufasaGroup;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What the program around the monitor seems to get wrong, each told once (`spec/4-arithmetic.md#advice`). No verdict
+// depends on it: write it to a log that somebody reads.
+enum MufasaAdvice
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing new.
+  MUFASA_ADVICE_NONE = 0,
+  // Cycles come in another period than period_ns.
+  MUFASA_ADVICE_PERIOD = 1,
+  // Detections are given, and none was current.
+  MUFASA_ADVICE_DETECTIONS_NOT_CURRENT = 2,
+  // A lead is given, and none was current: for the stages nobody is ahead.
+  MUFASA_ADVICE_LEAD_NOT_CURRENT = 3,
+  // A grid is given, and none was current.
+  MUFASA_ADVICE_GRID_NOT_CURRENT = 4,
+  // The gap does not change as the speeds of lead and CAV say: km/h, or a speed relative to the CAV.
+  MUFASA_ADVICE_LEAD_SPEED = 5,
+  // The gap is longer than the way to the detection ahead: between centres, or from the reference point.
+  MUFASA_ADVICE_GAP_TOO_LONG = 6,
+  // It is shorter: detections that are too small, or a center_offset that is too small.
+  MUFASA_ADVICE_GAP_TOO_SHORT = 7,
+  // No tick comes: nothing is offloaded, and nobody looks for silence.
+  MUFASA_ADVICE_NO_TICK = 8,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaAdvice MufasaAdvice;
+#else
+typedef uint32_t MufasaAdvice;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -342,77 +399,7 @@ typedef uint32_t MufasaConfiguration;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Why a message of a station was dropped; of several reasons the first in this order, except that
-// OTHER_SESSION comes before TOO_LONG.
-enum MufasaDropReason
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // It was not dropped, or the call was about no message.
-  MUFASA_DROP_REASON_NONE = 0,
-  // It has more tracks or points than the settings say. It is no arrival: a station that goes on so is
-  // silent, and its session ends after dt_max.
-  MUFASA_DROP_REASON_TOO_LONG = 1,
-  // It is not of the running session of its group, or there is none.
-  MUFASA_DROP_REASON_OTHER_SESSION = 2,
-  // It was generated after it arrived: the clocks cannot be trusted. The session has ended.
-  MUFASA_DROP_REASON_FROM_THE_FUTURE = 3,
-  // Its latency is above l_max. The session has ended.
-  MUFASA_DROP_REASON_LATE = 4,
-  // Its stamp is more than max_age ago, so that no cycle can use it. It is no arrival.
-  MUFASA_DROP_REASON_TOO_OLD = 5,
-  // For more than dt_max no cycle has had an element of the session that was current. It is no arrival:
-  // the session ends after dt_max.
-  MUFASA_DROP_REASON_STARVED = 6,
-  // The time since the last arrival is above dt_max. The session has ended.
-  MUFASA_DROP_REASON_AFTER_SILENCE = 7,
-  // It is not generated later than the last one that was used: repeated, or overtaken.
-  MUFASA_DROP_REASON_NOT_NEWER = 8,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum MufasaDropReason MufasaDropReason;
-#else
-typedef uint32_t MufasaDropReason;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// What the program around the monitor seems to get wrong, each told once (`spec/4-arithmetic.md#advice`). No verdict
-// depends on it: write it to a log that somebody reads.
-enum MufasaAdvice
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Nothing new.
-  MUFASA_ADVICE_NONE = 0,
-  // Cycles come in another period than period_ns.
-  MUFASA_ADVICE_PERIOD = 1,
-  // Detections are given, and none was current.
-  MUFASA_ADVICE_DETECTIONS_NOT_CURRENT = 2,
-  // A lead is given, and none was current: for the stages nobody is ahead.
-  MUFASA_ADVICE_LEAD_NOT_CURRENT = 3,
-  // A grid is given, and none was current.
-  MUFASA_ADVICE_GRID_NOT_CURRENT = 4,
-  // The gap does not change as the speeds of lead and CAV say: km/h, or a speed relative to the CAV.
-  MUFASA_ADVICE_LEAD_SPEED = 5,
-  // The gap is longer than the way to the detection ahead: between centres, or from the reference point.
-  MUFASA_ADVICE_GAP_TOO_LONG = 6,
-  // It is shorter: detections that are too small, or a center_offset that is too small.
-  MUFASA_ADVICE_GAP_TOO_SHORT = 7,
-  // No tick comes: nothing is offloaded, and nobody looks for silence.
-  MUFASA_ADVICE_NO_TICK = 8,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum MufasaAdvice MufasaAdvice;
-#else
-typedef uint32_t MufasaAdvice;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
+// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
 enum MufasaProfile
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -464,15 +451,8 @@ typedef uint32_t MufasaEventType;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A list of detections with its index in the memory of the caller; its content may change from
-// version to version.
-typedef struct MufasaDetectionIndex MufasaDetectionIndex;
-
 // A monitor in the memory of the caller; its content may change from version to version.
 typedef struct MufasaMonitor MufasaMonitor;
-
-// A requester in the memory of the caller; its content may change from version to version.
-typedef struct MufasaRequester MufasaRequester;
 
 // A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
 // of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`. A bare
@@ -493,33 +473,6 @@ typedef struct MufasaGap {
   // the reference path.
   double between_bumpers;
 } MufasaGap;
-
-// A detected object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
-// centre of its rectangle, (cos, sin) its direction.
-typedef struct MufasaDetection {
-  // Centre of the rectangle, m.
-  double x;
-  // Centre of the rectangle, m.
-  double y;
-  // cos of the direction.
-  double cos;
-  // sin of the direction.
-  double sin;
-  // Of the rectangle, along the direction, m.
-  double length;
-  // Of the rectangle, across, m.
-  double width;
-} MufasaDetection;
-
-// The detections of all local detectors.
-typedef struct MufasaDetectionList {
-  // Time of measurement.
-  struct MufasaTime stamp;
-  // Detections in list order.
-  const struct MufasaDetection *items;
-  // How many.
-  size_t items_len;
-} MufasaDetectionList;
 
 // Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaParameters {
@@ -703,6 +656,33 @@ typedef struct MufasaTrackList {
   size_t items_len;
 } MufasaTrackList;
 
+// A detected object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
+// centre of its rectangle, (cos, sin) its direction.
+typedef struct MufasaDetection {
+  // Centre of the rectangle, m.
+  double x;
+  // Centre of the rectangle, m.
+  double y;
+  // cos of the direction.
+  double cos;
+  // sin of the direction.
+  double sin;
+  // Of the rectangle, along the direction, m.
+  double length;
+  // Of the rectangle, across, m.
+  double width;
+} MufasaDetection;
+
+// The detections of all local detectors.
+typedef struct MufasaDetectionList {
+  // Time of measurement.
+  struct MufasaTime stamp;
+  // Detections in list order.
+  const struct MufasaDetection *items;
+  // How many.
+  size_t items_len;
+} MufasaDetectionList;
+
 // The leading vehicle: its free distance and speed along the reference path, the former bumper to bumper.
 typedef struct MufasaLead {
   // Time of measurement.
@@ -778,7 +758,7 @@ typedef struct MufasaCycle {
   // not safe leaves its detections in the history like any other; older than 60 s, a list counts
   // as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
   // and no detection is explained, so that each counts as standing, too; with none of them only
-  // tracks are looked at as moving (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
+  // tracks are looked at as moving (H-14). The verdict is then valid, but rejects more and knows less.
   const struct MufasaDetectionList *detection_history;
   // How many.
   size_t detection_history_len;
@@ -863,69 +843,6 @@ typedef struct MufasaRequesterParameters {
   uint32_t qos_hold;
 } MufasaRequesterParameters;
 
-// Something that happens at a time. Fields that its type does not use may be anything.
-typedef struct MufasaEvent {
-  // The CAV's monotonic clock.
-  struct MufasaTime t;
-  // A MufasaEventType.
-  uint32_t event_type;
-  // A MufasaGroup.
-  uint32_t group;
-  // Sum of MufasaGroup.
-  uint32_t groups;
-  // Not 0: the cycle was safe.
-  uint32_t safe;
-  // Id of the station, at least 1.
-  int64_t station;
-  // The session that the message names.
-  int64_t session;
-  // Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
-  // in `groups` may be anything.
-  int64_t sessions[2];
-  // When the result was generated, on the CAV's clock.
-  struct MufasaTime generated;
-} MufasaEvent;
-
-// Something to be done.
-typedef struct MufasaAction {
-  // What.
-  MufasaActionType action_type;
-  // Which group.
-  MufasaGroup group;
-  // Id of the station, or 0.
-  int64_t station;
-  // The session, or 0.
-  int64_t session;
-} MufasaAction;
-
-// The state of a group.
-typedef struct MufasaGroupState {
-  // What it is.
-  MufasaGroupStateKind kind;
-  // The station, or 0.
-  int64_t station;
-  // The session, or 0.
-  int64_t session;
-  // Of a requested group: a confirmation must come before this time.
-  struct MufasaTime deadline;
-  // The station whose results may reach control; 0 is the CAV.
-  int64_t source;
-} MufasaGroupState;
-
-// The state of a requester.
-typedef struct MufasaRequesterState {
-  // MOT.
-  struct MufasaGroupState mot;
-  // PLAN.
-  struct MufasaGroupState plan;
-  // For `MufasaCycle.configuration`.
-  MufasaConfiguration configuration;
-  // 0: there never was a hold.
-  uint32_t has_hold;
-  // No request is sent before this time.
-  struct MufasaTime hold_until;
-} MufasaRequesterState;
-
 // What a monitor is made with. The last five fields say how much memory it needs; what is longer is
 // refused when it comes.
 typedef struct MufasaMonitorSettings {
@@ -960,6 +877,41 @@ typedef struct MufasaMonitorSettings {
   // Cross sections of a route.
   size_t most_cross_sections;
 } MufasaMonitorSettings;
+
+// Something that happens at a time. Fields that its type does not use may be anything.
+typedef struct MufasaEvent {
+  // The CAV's monotonic clock.
+  struct MufasaTime t;
+  // A MufasaEventType.
+  uint32_t event_type;
+  // A MufasaGroup.
+  uint32_t group;
+  // Sum of MufasaGroup.
+  uint32_t groups;
+  // Not 0: the cycle was safe.
+  uint32_t safe;
+  // Id of the station, at least 1.
+  int64_t station;
+  // The session that the message names.
+  int64_t session;
+  // Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
+  // in `groups` may be anything.
+  int64_t sessions[2];
+  // When the result was generated, on the CAV's clock.
+  struct MufasaTime generated;
+} MufasaEvent;
+
+// Something to be done.
+typedef struct MufasaAction {
+  // What.
+  MufasaActionType action_type;
+  // Which group.
+  MufasaGroup group;
+  // Id of the station, or 0.
+  int64_t station;
+  // The session, or 0.
+  int64_t session;
+} MufasaAction;
 
 // What has to be done about an event, in this order.
 typedef struct MufasaActions {
@@ -1043,6 +995,34 @@ typedef struct MufasaDecision {
   MufasaAdvice advice;
 } MufasaDecision;
 
+// The state of a group.
+typedef struct MufasaGroupState {
+  // What it is.
+  MufasaGroupStateKind kind;
+  // The station, or 0.
+  int64_t station;
+  // The session, or 0.
+  int64_t session;
+  // Of a requested group: a confirmation must come before this time.
+  struct MufasaTime deadline;
+  // The station whose results may reach control; 0 is the CAV.
+  int64_t source;
+} MufasaGroupState;
+
+// The state of a requester.
+typedef struct MufasaRequesterState {
+  // MOT.
+  struct MufasaGroupState mot;
+  // PLAN.
+  struct MufasaGroupState plan;
+  // Which groups are remote.
+  MufasaConfiguration configuration;
+  // 0: there never was a hold.
+  uint32_t has_hold;
+  // No request is sent before this time.
+  struct MufasaTime hold_until;
+} MufasaRequesterState;
+
 // What is wrong with settings. The texts are empty when nothing is.
 typedef struct MufasaSettingsProblem {
   // Dotted path of the field; `parameters.x` names the field `x` of `stages`.
@@ -1088,31 +1068,6 @@ MufasaStatus mufasa_time_from_seconds(double seconds,
 // So many metres from bumper to bumper.
 MUFASA_MUST_USE struct MufasaGap mufasa_gap_between_bumpers(double metres);
 
-// Bytes of memory for the index of a list of so many detections; 2048 are enough for every list.
-size_t mufasa_detection_index_bytes(size_t items_len);
-
-// Checks a list of detections, copies and sorts it in `memory`, whose content means nothing before:
-// once for the cycle in which it is `detections` and for those in which it is a list of
-// `detection_history`. `*index` is where the index is; it needs no end, and may not be moved.
-// When the status is not OK there is none, and `*index`, if it can be written to, is null.
-// INVALID_LIST when the detections are not valid: `mufasa_check` says which one.
-//
-// An index is used for the list of a cycle with the same stamp, the same pointer to the items and
-// the same number of them; the items themselves are then not read again. So write no new detections
-// where `list.items` points as long as a cycle names that list, and when you do, make its index
-// anew. What is not indexed is copied, checked and sorted in every cycle: no verdict depends on
-// it, only time.
-//
-// # Safety
-// `list` is null or points to a list, whose items are as many as it says; `memory` points to
-// `bytes` bytes that nobody else uses as long as the index is used; `index` is null or can be
-// written to.
-MUFASA_MUST_USE
-MufasaStatus mufasa_detection_index_init(const struct MufasaDetectionList *list,
-                                         void *memory,
-                                         size_t bytes,
-                                         const struct MufasaDetectionIndex **index);
-
 // The defaults of spec/3-stages.md.
 struct MufasaParameters mufasa_parameters_default(void);
 
@@ -1124,8 +1079,8 @@ struct MufasaParameters mufasa_parameters_default(void);
 size_t mufasa_scratch_bytes(const struct MufasaCycle *cycle);
 
 // Decides one cycle. Unless `report` is null or misaligned it is always written; when the status
-// is not OK it is not safe. Use data of a cycle only when it is safe, and tell the
-// requester of every other one as unsafe.
+// is not OK it is not safe. Use data of a cycle only when it is safe. No requester is told of it, so
+// that nothing falls back: a vehicle calls `mufasa_monitor_cycle`.
 //
 // # Safety
 // Every pointer in the cycle is null or points to what its type says, in the number that is
@@ -1137,65 +1092,6 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
                           void *scratch,
                           size_t scratch_bytes,
                           struct MufasaReport *report);
-
-// As `mufasa_check`, with what the caller keeps of the cycle's lists of detections, in any order: an
-// array of `indexes_len` pointers to indexes, of which each may be null. An index of another list
-// is not used. The answer is the same.
-//
-// # Safety
-// As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
-// from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
-MUFASA_MUST_USE
-MufasaStatus mufasa_check_with(const struct MufasaCycle *cycle,
-                               const struct MufasaDetectionIndex *const *indexes,
-                               size_t indexes_len,
-                               void *scratch,
-                               size_t scratch_bytes,
-                               struct MufasaReport *report);
-
-// The defaults of spec/2-offloading.md.
-struct MufasaRequesterParameters mufasa_requester_parameters_default(void);
-
-// Bytes of memory for a requester that knows this many stations. A place of the table is taken
-// for good by every station that was ever asked.
-size_t mufasa_requester_bytes(size_t stations);
-
-// Makes a requester in `memory`, whose content means nothing before: both groups local, no
-// offers, no hold, all groups in the area. `*requester` is where it is; it needs no end, and may
-// not be moved.
-//
-// # Safety
-// `parameters` is null or points to parameters; `memory` points to `bytes` bytes that nobody
-// else uses as long as the requester is used; `requester` is null or can be written to.
-MUFASA_MUST_USE
-MufasaStatus mufasa_requester_init(uint32_t profile,
-                                   const struct MufasaRequesterParameters *parameters,
-                                   size_t stations,
-                                   void *memory,
-                                   size_t bytes,
-                                   struct MufasaRequester **requester);
-
-// Takes one event and writes what has to be done about it, in this order. When the status is not
-// OK nothing has changed, and `*actions_len`, if it can be written to, is 0.
-//
-// # Safety
-// `requester` is null or comes from `mufasa_requester_init`, in memory that nobody else wrote to,
-// and no other call uses it at the same time; `event` is null or points to an event; `actions`
-// is null or has `capacity` places; `actions_len` is null or can be written to.
-MUFASA_MUST_USE
-MufasaStatus mufasa_requester_step(struct MufasaRequester *requester,
-                                   const struct MufasaEvent *event,
-                                   struct MufasaAction *actions,
-                                   size_t capacity,
-                                   size_t *actions_len);
-
-// Writes the state of a requester.
-//
-// # Safety
-// `requester` as for `mufasa_requester_step`; `state` is null or can be written to.
-MUFASA_MUST_USE
-MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
-                                    struct MufasaRequesterState *state);
 
 // The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
 // 256 detections and 528 cross sections.

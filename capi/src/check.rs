@@ -1,17 +1,14 @@
 //! `mufasa::cycle::check` for C.
 
 use core::ffi::c_void;
-use core::ptr::null;
 
 use mufasa::cycle;
-use mufasa::input::indexes::Indexes;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{InvalidInput, Report};
 
 use crate::convert::{self, Counts};
 use crate::cycle::MufasaCycle;
-use crate::detection_index::{Kept, MufasaDetectionIndex};
 use crate::memory::{Arena, put, required};
 use crate::parameters::MufasaParameters;
 use crate::report::{self, MufasaReport};
@@ -42,8 +39,8 @@ pub unsafe extern "C" fn mufasa_scratch_bytes(cycle: *const MufasaCycle) -> usiz
 }
 
 /// Decides one cycle. Unless `report` is null or misaligned it is always written; when the status
-/// is not OK it is not safe. Use data of a cycle only when it is safe, and tell the
-/// requester of every other one as unsafe.
+/// is not OK it is not safe. Use data of a cycle only when it is safe. No requester is told of it, so
+/// that nothing falls back: a vehicle calls `mufasa_monitor_cycle`.
 ///
 /// # Safety
 /// Every pointer in the cycle is null or points to what its type says, in the number that is
@@ -59,31 +56,7 @@ pub unsafe extern "C" fn mufasa_check(
     report: *mut MufasaReport,
 ) -> MufasaStatus {
     // SAFETY: the caller's duty.
-    unsafe { mufasa_check_with(cycle, null(), 0, scratch, scratch_bytes, report) }
-}
-
-/// As `mufasa_check`, with what the caller keeps of the cycle's lists of detections, in any order: an
-/// array of `indexes_len` pointers to indexes, of which each may be null. An index of another list
-/// is not used. The answer is the same.
-///
-/// # Safety
-/// As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
-/// from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
-#[must_use]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn mufasa_check_with(
-    cycle: *const MufasaCycle,
-    indexes: *const *const MufasaDetectionIndex,
-    indexes_len: usize,
-    scratch: *mut c_void,
-    scratch_bytes: usize,
-    report: *mut MufasaReport,
-) -> MufasaStatus {
-    // SAFETY: the caller's duty.
-    let kept = unsafe { Kept::new(indexes, indexes_len) };
-    // SAFETY: the caller's duty.
-    let answer = kept.and_then(|kept| unsafe { check(cycle, kept, scratch, scratch_bytes) });
-    let (status, told) = match answer {
+    let (status, told) = match unsafe { check(cycle, scratch, scratch_bytes) } {
         Ok(Ok(answer)) => (MufasaStatus::Ok, report::report_of(&answer)),
         Ok(Err(problem)) => (MufasaStatus::Ok, report::error(Some(problem))),
         Err(status) => (status, report::error(None)),
@@ -96,10 +69,9 @@ pub unsafe extern "C" fn mufasa_check_with(
 }
 
 /// # Safety
-/// As for [`mufasa_check_with`].
+/// As for [`mufasa_check`].
 unsafe fn check(
     raw: *const MufasaCycle,
-    kept: Kept<'_>,
     scratch: *mut c_void,
     scratch_bytes: usize,
 ) -> Result<Result<Report, InvalidInput>, MufasaStatus> {
@@ -108,13 +80,9 @@ unsafe fn check(
     // SAFETY: the caller's duty.
     let mut arena = unsafe { Arena::new(scratch, scratch_bytes) }?;
     // SAFETY: the caller's duty.
-    let cycle = unsafe { convert::cycle(raw, kept, &mut arena) }?;
+    let cycle = unsafe { convert::cycle(raw, &mut arena) }?;
     let sizes = convert::capped(Sizes::for_cycle(&cycle));
     let rows = arena.keep((0..sizes.rows).map(|_| Row::default()))?;
     let columns = arena.keep((0..sizes.columns).map(|_| Column::default()))?;
-    // SAFETY: the caller's duty.
-    let (indexes, count) = unsafe { convert::indexes(raw, kept) }?;
-    let detections = indexes.get(..count).unwrap_or(&[]);
-    let indexes = Indexes { route: None, detections };
-    Ok(cycle::check_with(&cycle, &indexes, &mut Scratch::new(rows, columns)))
+    Ok(cycle::check(&cycle, &mut Scratch::new(rows, columns)))
 }

@@ -9,22 +9,21 @@ use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::input::detection_index::DetectionIndex;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
-    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetectionList, MufasaEgo,
-    MufasaGrid, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectory,
+    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaDetectionList,
+    MufasaEgo, MufasaGrid, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectory,
     MufasaTrajectoryPoint,
 };
-use crate::detection_index::{DETECTIONS, Kept, detection};
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
 
 /// The sizes of `spec/4-arithmetic.md#domain` and one.
 pub(crate) const TRACKS: usize = 1025;
+pub(crate) const DETECTIONS: usize = 2049;
 const HISTORY: usize = 5;
 pub(crate) const POINTS: usize = 1025;
 pub(crate) const CROSS_SECTIONS: usize = 8193;
@@ -101,14 +100,12 @@ pub(crate) fn capped(sizes: Sizes) -> Sizes {
     Sizes { rows: sizes.rows.min(Sizes::MAX.rows), columns: sizes.columns.min(Sizes::MAX.columns) }
 }
 
-/// The record of `mufasa`; what has an index is not copied.
+/// The record of `mufasa`.
 ///
 /// # Safety
-/// The pointers of `raw` are null or point to what they say, and nobody writes there during `'a`; the
-/// same for `kept`.
+/// The pointers of `raw` are null or point to what they say, and nobody writes there during `'a`.
 pub(crate) unsafe fn cycle<'a>(
     raw: &MufasaCycle,
-    kept: Kept<'a>,
     arena: &mut Arena<'a>,
 ) -> Result<Cycle<'a>, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
@@ -117,7 +114,7 @@ pub(crate) unsafe fn cycle<'a>(
     let detections = match unsafe { optional(raw.detections) }? {
         None => None,
         // SAFETY: as above.
-        Some(it) => Some(unsafe { detections_of(it, kept, arena) }?),
+        Some(it) => Some(unsafe { detections_of(it, arena) }?),
     };
     // SAFETY: as above.
     let cross_sections =
@@ -144,7 +141,7 @@ pub(crate) unsafe fn cycle<'a>(
         // SAFETY: as above.
         grid: unsafe { grid(raw.grid) }?,
         // SAFETY: as above.
-        detection_history: unsafe { detection_history(raw, kept, arena) }?,
+        detection_history: unsafe { detection_history(raw, arena) }?,
     })
 }
 
@@ -152,41 +149,12 @@ pub(crate) unsafe fn cycle<'a>(
 /// As for [`cycle`].
 unsafe fn detections_of<'a>(
     it: &MufasaDetectionList,
-    kept: Kept<'a>,
     arena: &mut Arena<'a>,
 ) -> Result<DetectionList<'a>, MufasaStatus> {
-    // SAFETY: the caller's duty, here and below.
-    if let Some(index) = unsafe { kept.of(it) }? {
-        return Ok(DetectionList { stamp_ns: it.stamp.ns, items: index.items() });
-    }
-    // SAFETY: as above.
+    // SAFETY: the caller's duty.
     let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
     let items = arena.keep(items.iter().map(detection))?;
     Ok(DetectionList { stamp_ns: it.stamp.ns, items })
-}
-
-/// The indexes of the lists of a cycle: the first so many of these.
-///
-/// # Safety
-/// As for [`cycle`].
-pub(crate) unsafe fn indexes<'a>(
-    raw: &MufasaCycle,
-    kept: Kept<'a>,
-) -> Result<([DetectionIndex<'a>; HISTORY + 1], usize), MufasaStatus> {
-    let mut found = [DetectionIndex::EMPTY; HISTORY + 1];
-    let mut count: usize = 0;
-    // SAFETY: the caller's duty, here and below.
-    let current = unsafe { optional(raw.detections) }?;
-    // SAFETY: as above.
-    for list in current.into_iter().chain(unsafe { history(raw) }?) {
-        // SAFETY: as above.
-        let Some(index) = unsafe { kept.of(list) }? else { continue };
-        if let Some(place) = found.get_mut(count) {
-            *place = index;
-            count = count.saturating_add(1);
-        }
-    }
-    Ok((found, count))
 }
 
 /// # Safety
@@ -204,7 +172,6 @@ fn items_in_domain(list: &MufasaDetectionList) -> usize {
 /// As for [`cycle`].
 unsafe fn detection_history<'a>(
     raw: &MufasaCycle,
-    kept: Kept<'a>,
     arena: &mut Arena<'a>,
 ) -> Result<&'a [DetectionList<'a>], MufasaStatus> {
     let mut lists = [DetectionList { stamp_ns: 0, items: &[] }; HISTORY];
@@ -212,7 +179,7 @@ unsafe fn detection_history<'a>(
     let history = unsafe { history(raw) }?;
     for (place, list) in lists.iter_mut().zip(history) {
         // SAFETY: as above.
-        *place = unsafe { detections_of(list, kept, arena) }?;
+        *place = unsafe { detections_of(list, arena) }?;
     }
     let kept = arena.keep(lists.into_iter().take(history.len()))?;
     Ok(kept)
@@ -308,6 +275,11 @@ pub(crate) fn trajectory_point(raw: &MufasaTrajectoryPoint) -> TrajectoryPoint {
 pub(crate) fn track(raw: &MufasaTrack) -> Track {
     let MufasaTrack { id, x, y, cos, sin, vx, vy, length, width } = *raw;
     Track { id, x, y, cos, sin, vx, vy, length, width }
+}
+
+pub(crate) fn detection(raw: &MufasaDetection) -> Detection {
+    let MufasaDetection { x, y, cos, sin, length, width } = *raw;
+    Detection { x, y, cos, sin, length, width }
 }
 
 pub(crate) fn cross_section(raw: &MufasaCrossSection) -> CrossSection {

@@ -4,7 +4,7 @@
 use crate::parameters::MufasaParameters;
 use crate::time::{MufasaGap, MufasaTime};
 
-/// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
+/// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MufasaProfile {
@@ -269,7 +269,7 @@ pub struct MufasaCycle {
     /// not safe leaves its detections in the history like any other; older than 60 s, a list counts
     /// as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
     /// and no detection is explained, so that each counts as standing, too; with none of them only
-    /// tracks are looked at as moving (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
+    /// tracks are looked at as moving (H-14). The verdict is then valid, but rejects more and knows less.
     pub detection_history: *const MufasaDetectionList,
     /// How many.
     pub detection_history_len: usize,

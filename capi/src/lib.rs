@@ -1,8 +1,7 @@
-//! C interface of MUFASA's implementation: the monitor, and beneath it `mufasa::cycle::check` and
-//! `mufasa::offloading::requester`.
+//! C interface of MUFASA's implementation: the monitor, and beneath it `mufasa::cycle::check`.
 //!
 //! All memory is the caller's: nothing is allocated, and nothing is kept between two calls except
-//! monitor, requester and indexes, in the memory that they were given. Numbers that stand for a choice (profile,
+//! the monitor, in the memory that it was given. Numbers that stand for a choice (profile,
 //! configuration, group, type of an event) are checked, so any bit pattern may come in. Pointers
 //! are checked for null and alignment; that they point to what they say, the caller warrants.
 //!
@@ -26,7 +25,6 @@
 
 pub mod check;
 pub mod cycle;
-pub mod detection_index;
 pub mod event;
 pub mod monitor;
 pub mod parameters;

@@ -18,35 +18,31 @@ pub enum MufasaStatus {
     /// The memory is smaller than the function that tells its size says, a number of things that it is
     /// to hold is 0, or what was given is longer than that.
     MemoryTooSmall = 4,
-    /// The array for actions has fewer than MUFASA_MAX_ACTIONS places.
-    TooFewActions = 5,
     /// A parameter of the requester, or a number of sessions, is below 0, or the latter 2^63 - 1, after which
     /// there is no session.
-    NegativeParameter = 6,
+    NegativeParameter = 5,
     /// An event names a station below 1.
-    InvalidStation = 7,
+    InvalidStation = 6,
     /// An offer of a station for which the table has no place.
-    TableFull = 8,
-    /// A list of detections of which there is no index, as it is not valid.
-    InvalidList = 9,
+    TableFull = 7,
     /// A parameter of the stages is outside its domain.
-    InvalidParameter = 10,
+    InvalidParameter = 8,
     /// The nominal period is not above 0.
-    InvalidPeriod = 11,
+    InvalidPeriod = 9,
     /// dt_max is not above the nominal period, so that any jitter would end a session.
-    DtMaxNotAbovePeriod = 12,
+    DtMaxNotAbovePeriod = 10,
     /// A value of the route is outside its domain.
-    InvalidRoute = 13,
+    InvalidRoute = 11,
     /// A time above 0 and below 1 ms, or t_wait above 0 and below 1 s: it is taken for one in another unit
     /// than nanoseconds.
-    TimeTooShort = 14,
+    TimeTooShort = 12,
     /// max_age is below l_max, so that no cycle could use some of the results that are in time.
-    MaxAgeBelowLMax = 15,
+    MaxAgeBelowLMax = 13,
     /// tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
     /// cycle, the first that can fail.
-    TauNotAbovePeriod = 16,
+    TauNotAbovePeriod = 14,
     /// A cycle with lists as long as they may become could take longer than check_time.
-    TooSlow = 17,
+    TooSlow = 15,
     /// A setting that no road vehicle has, and that is not named in `meant`.
-    Unusual = 18,
+    Unusual = 16,
 }

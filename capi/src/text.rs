@@ -3,17 +3,15 @@
 use core::ffi::{CStr, c_char};
 
 /// By their numbers.
-const STATUSES: [&CStr; 19] = [
+const STATUSES: [&CStr; 17] = [
     c"done",
     c"a pointer that must not be null is null",
     c"a pointer is misaligned",
     c"a value that does not exist, or no time",
     c"too little memory",
-    c"too few places for actions",
     c"a parameter or a number of sessions below 0",
     c"a station below 1",
     c"no place for another station",
-    c"an invalid list of detections",
     c"a parameter of the stages outside its domain",
     c"a period not above 0",
     c"dt_max not above the period",

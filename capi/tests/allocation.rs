@@ -2,7 +2,8 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
-use std::ptr::null;
+use std::mem::MaybeUninit;
+use std::ptr::{null, null_mut};
 
 use mufasa_capi::check::{
     MUFASA_SCRATCH_BYTES_MAX, mufasa_check, mufasa_parameters_default, mufasa_scratch_bytes,
@@ -12,16 +13,27 @@ use mufasa_capi::cycle::{
     MufasaEgo, MufasaProfile, MufasaRoute, MufasaTrack, MufasaTrackList, MufasaTrajectory,
     MufasaTrajectoryPoint,
 };
-use mufasa_capi::event::{MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent, MufasaEventType};
-use mufasa_capi::report::{MufasaFailedStage, MufasaReport};
-use mufasa_capi::requester::{
-    mufasa_requester_bytes, mufasa_requester_init, mufasa_requester_parameters_default,
-    mufasa_requester_step,
+use mufasa_capi::event::{MufasaEvent, MufasaEventType};
+use mufasa_capi::monitor::{
+    MufasaActions, MufasaDecision, MufasaMonitorInputs, MufasaMonitorSettings, MufasaTrackMessage,
+    mufasa_monitor_bytes, mufasa_monitor_cycle, mufasa_monitor_init, mufasa_monitor_set_route,
+    mufasa_monitor_settings_default, mufasa_monitor_step, mufasa_monitor_tracks,
 };
+use mufasa_capi::report::{MufasaFailedStage, MufasaReport};
 use mufasa_capi::status::MufasaStatus;
 use mufasa_capi::time::MufasaTime;
 
 const EPOCH: MufasaTime = MufasaTime { ns: 0 };
+const EGO: MufasaEgo = MufasaEgo {
+    x: 0.0,
+    y: 0.0,
+    cos: 1.0,
+    sin: 0.0,
+    speed: 30.0,
+    length: 4.8,
+    width: 1.9,
+    center_offset: 1.4,
+};
 
 struct Counting;
 
@@ -105,22 +117,12 @@ fn a_check_allocates_nothing() {
     let tracks = MufasaTrackList { stamp: EPOCH, items: tracks.as_ptr(), items_len: 200 };
     let detections =
         MufasaDetectionList { stamp: EPOCH, items: detections.as_ptr(), items_len: 200 };
-    let ego = MufasaEgo {
-        x: 0.0,
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        speed: 30.0,
-        length: 4.8,
-        width: 1.9,
-        center_offset: 1.4,
-    };
     let cycle = MufasaCycle {
         profile: MufasaProfile::Paper as u32,
         configuration: MufasaConfiguration::AllRemote as u32,
         now: EPOCH,
         parameters: mufasa_parameters_default(),
-        ego,
+        ego: EGO,
         route: MufasaRoute {
             closed: 0,
             cross_sections: cross_sections.as_ptr(),
@@ -135,7 +137,7 @@ fn a_check_allocates_nothing() {
         detection_history_len: 0,
     };
     let mut scratch = vec![0_u8; MUFASA_SCRATCH_BYTES_MAX];
-    let mut report = std::mem::MaybeUninit::<MufasaReport>::uninit();
+    let mut report = MaybeUninit::<MufasaReport>::uninit();
     let mut status = MufasaStatus::TableFull;
     let count = allocations(|| {
         // SAFETY: everything that the cycle points to lives to the end of the test.
@@ -150,44 +152,86 @@ fn a_check_allocates_nothing() {
     assert_eq!(report.failed_stage, MufasaFailedStage::Iii);
 }
 
+/// A station offers, confirms and sends tracks, and a cycle checks them.
 #[test]
-fn a_requester_allocates_nothing() {
-    let mut memory = vec![0_u64; mufasa_requester_bytes(4).div_ceil(8)];
-    let bytes = memory.len() * 8;
-    let parameters = mufasa_requester_parameters_default();
-    let mut actions =
-        [const { std::mem::MaybeUninit::<MufasaAction>::uninit() }; MUFASA_MAX_ACTIONS];
-    let (mut requester, mut requests) = (std::ptr::null_mut(), 0);
+fn a_monitor_allocates_nothing() {
+    let settings = MufasaMonitorSettings {
+        profile: MufasaProfile::Paper as u32,
+        most_tracks: 2,
+        most_detections: 2,
+        ..mufasa_monitor_settings_default(20_000_000)
+    };
+    // SAFETY: the settings live to the end of the test.
+    let bytes = unsafe { mufasa_monitor_bytes(&raw const settings) };
+    let mut memory = vec![0_u64; bytes.div_ceil(8)];
+    let sections =
+        [-10.0, 200.0].map(|x| MufasaCrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] });
+    let route = MufasaRoute { closed: 0, cross_sections: sections.as_ptr(), cross_sections_len: 2 };
+    let track = MufasaTrack {
+        id: 1,
+        x: 50.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        vx: 0.0,
+        vy: 0.0,
+        length: 4.0,
+        width: 2.0,
+    };
+    let tracks = MufasaTrackList { stamp: EPOCH, items: &raw const track, items_len: 1 };
+    let message = MufasaTrackMessage { station: 3, session: 1, generated: EPOCH, tracks };
+    let MufasaTrack { x, y, cos, sin, length, width, .. } = track;
+    let detection = MufasaDetection { x, y, cos, sin, length, width };
+    let detections =
+        MufasaDetectionList { stamp: EPOCH, items: &raw const detection, items_len: 1 };
+    let inputs = MufasaMonitorInputs {
+        ego: EGO,
+        detections: &raw const detections,
+        lead: null(),
+        grid: null(),
+        local_tracks: null(),
+        local_trajectory: null(),
+    };
+    let event = |kind: MufasaEventType| MufasaEvent {
+        t: EPOCH,
+        event_type: kind as u32,
+        group: 1,
+        groups: 3,
+        safe: 0,
+        station: 3,
+        session: 1,
+        sessions: [0; 2],
+        generated: EPOCH,
+    };
+    let events =
+        [MufasaEventType::Offer, MufasaEventType::Tick, MufasaEventType::Confirm].map(event);
+    let mut monitor = null_mut();
+    let mut actions = MaybeUninit::<MufasaActions>::uninit();
+    let mut decision = MaybeUninit::<MufasaDecision>::uninit();
     let count = allocations(|| {
-        let profile = MufasaProfile::Paper as u32;
-        let place = memory.as_mut_ptr().cast();
-        let made = &raw mut requester;
+        let (place, made) = (memory.as_mut_ptr().cast(), &raw mut monitor);
         // SAFETY: the memory is this test's alone and lives to its end.
-        let status =
-            unsafe { mufasa_requester_init(profile, &raw const parameters, 4, place, bytes, made) };
+        let status = unsafe { mufasa_monitor_init(&raw const settings, place, bytes, made) };
         assert_eq!(status, MufasaStatus::Ok);
-        for (event_type, station) in
-            [(MufasaEventType::Offer, 3), (MufasaEventType::Offer, 5), (MufasaEventType::Tick, 0)]
-        {
-            let event = MufasaEvent {
-                t: EPOCH,
-                event_type: event_type as u32,
-                group: 0,
-                groups: 3,
-                safe: 0,
-                station,
-                session: 0,
-                sessions: [1, 2],
-                generated: EPOCH,
-            };
-            let places = actions.as_mut_ptr().cast();
-            let len = &raw mut requests;
-            // SAFETY: the requester was just made; the array has as many places as is said.
-            let status = unsafe {
-                mufasa_requester_step(requester, &raw const event, places, MUFASA_MAX_ACTIONS, len)
-            };
+        // SAFETY: the monitor was just made; all that is pointed to lives to the end of the test, here and below.
+        let status = unsafe { mufasa_monitor_set_route(monitor, &raw const route) };
+        assert_eq!(status, MufasaStatus::Ok);
+        let to = actions.as_mut_ptr();
+        for event in &events {
+            // SAFETY: as above.
+            let status = unsafe { mufasa_monitor_step(monitor, event, to) };
             assert_eq!(status, MufasaStatus::Ok);
         }
+        // SAFETY: as above.
+        let status = unsafe { mufasa_monitor_tracks(monitor, EPOCH, &raw const message, to) };
+        assert_eq!(status, MufasaStatus::Ok);
+        let to = decision.as_mut_ptr();
+        // SAFETY: as above.
+        let status = unsafe { mufasa_monitor_cycle(monitor, EPOCH, &raw const inputs, to) };
+        assert_eq!(status, MufasaStatus::Ok);
     });
-    assert_eq!((count, requests), (0, 2));
+    // SAFETY: it was written, as its pointer was neither null nor misaligned.
+    let decision = unsafe { decision.assume_init() };
+    assert_eq!((count, decision.report.safe), (0, 1));
+    assert!(!decision.tracks.is_null(), "the station's tracks were not checked");
 }

@@ -1,4 +1,4 @@
-/* What the C interface promises, from C: verdicts, errors of the call, and a requester's trace. */
+/* What a check promises, from C: verdicts, and errors of the call. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -183,53 +183,6 @@ static void history(void) {
   EXPECT(strcmp(report.input.field, "detection_history.stamp_ns") == 0);
 }
 
-/* Lists that are indexed once: the same answers, and the items are not read again. */
-static void indexes(void) {
-  struct scene s;
-  struct MufasaReport report;
-  const struct MufasaDetectionIndex *kept[3] = {NULL, NULL, NULL};
-  set_up(&s);
-  struct MufasaDetection seen[8];
-  for (size_t i = 0; i < 8; ++i) {
-    seen[i] = s.detection_items[0];
-    seen[i].y += 30 + (double)i;
-  }
-  struct MufasaDetectionList list = {AT(s.detections.stamp.ns - 300000000), seen, 8};
-  s.cycle.profile = MUFASA_PROFILE_HARDENED;
-  s.cycle.detection_history = &list;
-  s.cycle.detection_history_len = 1;
-  const struct MufasaReport plain = checked(&s.cycle);
-  size_t bytes = mufasa_detection_index_bytes(8), enough = mufasa_scratch_bytes(&s.cycle);
-  char *memory = malloc(bytes), *more = malloc(bytes);
-  EXPECT(mufasa_detection_index_init(&list, memory, bytes, &kept[0]) == MUFASA_STATUS_OK);
-  EXPECT(mufasa_detection_index_init(&s.detections, more, bytes, &kept[2]) == MUFASA_STATUS_OK);
-  for (size_t len = 0; len <= 3; ++len) {
-    EXPECT(mufasa_check_with(&s.cycle, kept, len, scratch, enough, &report) == MUFASA_STATUS_OK);
-    EXPECT(report.safe == plain.safe && report.failed_stage == plain.failed_stage);
-  }
-  const double y = seen[5].y;
-  seen[5].y = 1e300; /* not to be done: it shows what is read */
-  EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
-  EXPECT(report.safe == plain.safe && checked(&s.cycle).failed_stage == MUFASA_FAILED_STAGE_ERROR);
-  list.stamp.ns -= 1; /* another list in the same memory */
-  EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
-  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
-  EXPECT(mufasa_detection_index_init(&list, memory, bytes, kept) == MUFASA_STATUS_INVALID_LIST);
-  EXPECT(kept[0] == NULL);
-  seen[5].y = y;
-  EXPECT(mufasa_detection_index_init(NULL, memory, bytes, &kept[0]) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_detection_index_init(&list, NULL, bytes, &kept[0]) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_detection_index_init(&list, memory, bytes, NULL) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_detection_index_init(&list, memory + 1, bytes, kept) == MUFASA_STATUS_MISALIGNED);
-  EXPECT(mufasa_detection_index_init(&list, memory, bytes - 32, &kept[0]) ==
-         MUFASA_STATUS_MEMORY_TOO_SMALL);
-  EXPECT(mufasa_check_with(&s.cycle, NULL, 1, scratch, enough, &report) ==
-         MUFASA_STATUS_NULL_POINTER);
-  EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
-  free(memory);
-  free(more);
-}
-
 static void faults_of_the_call(void) {
   struct scene s;
   struct MufasaReport report;
@@ -270,139 +223,10 @@ static void faults_of_the_call(void) {
   EXPECT(report.failed_stage == MUFASA_FAILED_STAGE_ERROR);
 }
 
-static struct MufasaRequester *requester;
-static struct MufasaAction actions[MUFASA_MAX_ACTIONS];
-
-static size_t step(struct MufasaEvent event) {
-  size_t count = 99;
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_OK);
-  return count;
-}
-
-static int is(size_t i, MufasaActionType type, MufasaGroup group, int64_t station, int64_t session) {
-  return actions[i].action_type == type && actions[i].group == group &&
-         actions[i].station == station && actions[i].session == session;
-}
-
-static struct MufasaRequesterState state(void) {
-  struct MufasaRequesterState now;
-  memset(&now, 0xff, sizeof now);
-  EXPECT(mufasa_requester_state(requester, &now) == MUFASA_STATUS_OK);
-  return now;
-}
-
-/* Two stations fit. */
-static void init(MufasaProfile profile) {
-  struct MufasaRequesterParameters parameters = mufasa_requester_parameters_default();
-  size_t bytes = mufasa_requester_bytes(2);
-  void *memory = malloc(bytes);
-  MufasaStatus made = mufasa_requester_init(profile, &parameters, 2, memory, bytes, &requester);
-  EXPECT(made == MUFASA_STATUS_OK);
-  EXPECT((void *)requester == memory);
-}
-
-static void trace(void) {
-  const uint32_t both = MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN;
-  init(MUFASA_PROFILE_PAPER);
-  EXPECT(state().configuration == MUFASA_CONFIGURATION_LOCAL && !state().has_hold);
-  EXPECT(step((struct MufasaEvent){
-             .t = AT(0), .event_type = MUFASA_EVENT_TYPE_OFFER, .station = 1, .groups = both}) == 0);
-  EXPECT(step((struct MufasaEvent){.t = AT(1), .event_type = MUFASA_EVENT_TYPE_TICK}) == 2);
-  EXPECT(is(0, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_MOT, 1, 1));
-  EXPECT(is(1, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_PLAN, 1, 2));
-  EXPECT(state().mot.kind == MUFASA_GROUP_STATE_KIND_REQUESTED);
-  EXPECT(state().mot.deadline.ns == 1 + SECOND / 2);
-  EXPECT(step((struct MufasaEvent){.t = AT(2), .event_type = MUFASA_EVENT_TYPE_CONFIRM, .station = 1,
-                                   .group = MUFASA_GROUP_MOT, .session = 1}) == 1);
-  EXPECT(is(0, MUFASA_ACTION_TYPE_DEACTIVATE, MUFASA_GROUP_MOT, 0, 0));
-  EXPECT(state().mot.source == 1 && state().plan.source == 0);
-  EXPECT(state().configuration == MUFASA_CONFIGURATION_MOT_REMOTE);
-  struct MufasaEvent data = {.t = AT(3), .event_type = MUFASA_EVENT_TYPE_DATA, .station = 1,
-                             .group = MUFASA_GROUP_MOT, .session = 1, .generated = AT(1)};
-  EXPECT(step(data) == 0);
-  data.session = 2;
-  EXPECT(step(data) == 1 && is(0, MUFASA_ACTION_TYPE_DROP, MUFASA_GROUP_MOT, 0, 0));
-
-  /* An unsafe cycle: everything returns, and offloading is barred for t_wait. */
-  EXPECT(step((struct MufasaEvent){.t = AT(4), .event_type = MUFASA_EVENT_TYPE_VERDICT, .safe = 0,
-                                   .groups = MUFASA_GROUP_MOT}) == 3);
-  EXPECT(is(0, MUFASA_ACTION_TYPE_RELEASE, MUFASA_GROUP_MOT, 1, 1));
-  EXPECT(is(1, MUFASA_ACTION_TYPE_RELEASE, MUFASA_GROUP_PLAN, 1, 2));
-  EXPECT(is(2, MUFASA_ACTION_TYPE_ACTIVATE, MUFASA_GROUP_MOT, 0, 0));
-  EXPECT(state().has_hold == 1 && state().hold_until.ns == 4 + 10 * SECOND);
-  struct MufasaEvent tick = {.t = AT(3 + 10 * SECOND), .event_type = MUFASA_EVENT_TYPE_TICK};
-  EXPECT(step(tick) == 0);
-  tick.t.ns += 1;
-  EXPECT(step(tick) == 2 && is(0, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_MOT, 1, 3));
-  free(requester);
-}
-
-static void faults_of_the_requester(void) {
-  struct MufasaRequesterParameters parameters = mufasa_requester_parameters_default();
-  size_t bytes = mufasa_requester_bytes(1), count = 99;
-  char *memory = malloc(bytes + 1);
-  const uint32_t paper = MUFASA_PROFILE_PAPER;
-  struct MufasaRequester *made = NULL;
-  EXPECT(mufasa_requester_init(9, &parameters, 1, memory, bytes, &made) ==
-         MUFASA_STATUS_UNKNOWN_VALUE);
-  EXPECT(mufasa_requester_init(paper, NULL, 1, memory, bytes, &made) ==
-         MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_requester_init(paper, &parameters, 1, NULL, bytes, &made) ==
-         MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_requester_init(paper, &parameters, 1, memory + 1, bytes, &made) ==
-         MUFASA_STATUS_MISALIGNED);
-  EXPECT(mufasa_requester_init(paper, &parameters, 1, memory, bytes - 1, &made) ==
-         MUFASA_STATUS_MEMORY_TOO_SMALL);
-  EXPECT(mufasa_requester_init(paper, &parameters, SIZE_MAX, memory, bytes, &made) ==
-         MUFASA_STATUS_MEMORY_TOO_SMALL);
-  parameters.l_max_ns = -1;
-  EXPECT(mufasa_requester_init(paper, &parameters, 1, memory, bytes, &made) ==
-         MUFASA_STATUS_NEGATIVE_PARAMETER);
-  EXPECT(made == NULL);
-  free(memory);
-
-  init(MUFASA_PROFILE_HARDENED);
-  struct MufasaEvent event = {.event_type = MUFASA_EVENT_TYPE_OFFER, .groups = MUFASA_GROUP_MOT};
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_INVALID_STATION);
-  EXPECT(count == 0);
-  event.station = 1;
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS - 1, &count) ==
-         MUFASA_STATUS_TOO_FEW_ACTIONS);
-  EXPECT(mufasa_requester_step(requester, NULL, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_requester_step(NULL, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_NULL_POINTER);
-  struct MufasaAction *odd = (struct MufasaAction *)((char *)actions + 1);
-  EXPECT(mufasa_requester_step(requester, &event, odd, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_MISALIGNED);
-  EXPECT(mufasa_requester_step(requester, &event, NULL, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, NULL) ==
-         MUFASA_STATUS_NULL_POINTER);
-  event.groups = 4;
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_UNKNOWN_VALUE);
-  event.groups = MUFASA_GROUP_MOT;
-  for (event.station = 1; event.station <= 2; ++event.station) EXPECT(step(event) == 0);
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_TABLE_FULL);
-  event.event_type = 10;
-  EXPECT(mufasa_requester_step(requester, &event, actions, MUFASA_MAX_ACTIONS, &count) ==
-         MUFASA_STATUS_UNKNOWN_VALUE);
-  EXPECT(mufasa_requester_state(NULL, NULL) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_requester_state(requester, NULL) == MUFASA_STATUS_NULL_POINTER);
-  free(requester);
-}
-
 int main(void) {
   verdicts();
   invalid_input();
   history();
-  indexes();
   faults_of_the_call();
-  trace();
-  faults_of_the_requester();
   return report_failures();
 }

@@ -47,12 +47,11 @@ const PARAMETERS: [&str; 2] =
     [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
 
 /// Those with what C sees, in the order of the header.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 15] = [
     "status",
     "version",
     "time",
     "cycle",
-    "detection_index",
     "report",
     "check",
     "event",

@@ -45,6 +45,19 @@ static MufasaStatus step(struct MufasaMonitor *monitor, uint32_t type, int64_t t
   return mufasa_monitor_step(monitor, &event, &actions);
 }
 
+static struct MufasaRequesterState state(const struct MufasaMonitor *monitor) {
+  struct MufasaRequesterState now;
+  memset(&now, 0xff, sizeof now);
+  EXPECT(mufasa_monitor_state(monitor, &now) == MUFASA_STATUS_OK);
+  return now;
+}
+
+static int is(size_t i, MufasaActionType type, MufasaGroup group, int64_t station, int64_t session) {
+  const struct MufasaAction *it = &actions.items[i];
+  return i < actions.len && it->action_type == type && it->group == group && it->station == station &&
+         it->session == session;
+}
+
 /* Both groups remote at 4 ms: sessions 1 and 2 of station 1. */
 static struct MufasaMonitor *offloading(void) {
   const struct MufasaMonitorSettings it = settings();
@@ -53,19 +66,19 @@ static struct MufasaMonitor *offloading(void) {
   EXPECT(mufasa_monitor_set_route(monitor, &route) == MUFASA_STATUS_OK);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_OFFER, 0, 0, 0) == MUFASA_STATUS_OK && actions.len == 0);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, 1 * MS, 0, 0) == MUFASA_STATUS_OK && actions.len == 2);
+  EXPECT(is(0, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_MOT, 1, 1));
+  EXPECT(is(1, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_PLAN, 1, 2));
+  EXPECT(state(monitor).mot.kind == MUFASA_GROUP_STATE_KIND_REQUESTED && state(monitor).mot.deadline.ns == 501 * MS);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_OK);
+  EXPECT(actions.len == 1 && is(0, MUFASA_ACTION_TYPE_DEACTIVATE, MUFASA_GROUP_MOT, 0, 0));
+  EXPECT(state(monitor).mot.source == 1 && state(monitor).plan.source == 0);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_PLAN, 2) == MUFASA_STATUS_OK);
-  struct MufasaRequesterState state;
-  EXPECT(mufasa_monitor_state(NULL, &state) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_monitor_state(monitor, &state) == MUFASA_STATUS_OK);
-  EXPECT(state.configuration == MUFASA_CONFIGURATION_ALL_REMOTE);
+  EXPECT(state(monitor).configuration == MUFASA_CONFIGURATION_ALL_REMOTE && !state(monitor).has_hold);
   return monitor;
 }
 
 static int is_local(const struct MufasaMonitor *monitor) {
-  struct MufasaRequesterState state;
-  return mufasa_monitor_state(monitor, &state) == MUFASA_STATUS_OK &&
-         state.configuration == MUFASA_CONFIGURATION_LOCAL;
+  return state(monitor).configuration == MUFASA_CONFIGURATION_LOCAL;
 }
 
 /* Tracks and a trajectory that agree with the detections, made 2 ms before `now_ns`. */
@@ -130,6 +143,7 @@ static void data_come_out_of_a_safe_cycle_alone(void) {
   EXPECT(decision.report.failed_stage == MUFASA_FAILED_STAGE_I);
   EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
   EXPECT(decision.actions.len == 4 && is_local(monitor));
+  EXPECT(state(monitor).has_hold == 1 && state(monitor).hold_until.ns == 10015 * MS);
   EXPECT(decision.local_services == MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN);
   tracks[0].x = 15;
   EXPECT(receive(monitor, 16 * MS, 1, 1) == MUFASA_STATUS_OK && actions.len == 1);
@@ -252,6 +266,30 @@ static void events_that_are_not_for_the_caller(void) {
   EXPECT(mufasa_monitor_tracks(monitor, AT(50 * MS + 1), &late, &actions) == MUFASA_STATUS_OK);
   EXPECT(actions.len == 3 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
   EXPECT(actions.dropped == MUFASA_DROP_REASON_LATE);
+}
+
+/* What is refused changes nothing. */
+static void events_and_calls_that_are_refused(void) {
+  struct MufasaMonitor *monitor = offloading();
+  struct MufasaEvent event = {.t = AT(5 * MS), .event_type = MUFASA_EVENT_TYPE_OFFER, .groups = 3};
+  EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_INVALID_STATION && actions.len == 0);
+  event.station = 2;
+  EXPECT(mufasa_monitor_step(NULL, &event, &actions) == MUFASA_STATUS_NULL_POINTER);
+  struct MufasaActions *odd = (struct MufasaActions *)(void *)((char *)&actions + 1);
+  EXPECT(mufasa_monitor_step(monitor, &event, odd) == MUFASA_STATUS_MISALIGNED);
+  event.groups = 4;
+  EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_UNKNOWN_VALUE);
+  event.groups = 3;
+  EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_OK && actions.len == 0);
+  event.station = 3; /* two fit */
+  EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_TABLE_FULL);
+  event.event_type = MUFASA_EVENT_TYPE_VERDICT + 1;
+  EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_UNKNOWN_VALUE);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_REJECT, 5 * MS, 3, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
+  struct MufasaRequesterState now;
+  EXPECT(mufasa_monitor_state(NULL, &now) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_state(monitor, NULL) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(state(monitor).configuration == MUFASA_CONFIGURATION_ALL_REMOTE);
 }
 
 static struct MufasaSettingsProblem is_about(const struct MufasaMonitorSettings *it, MufasaStatus status,
@@ -390,6 +428,7 @@ int main(void) {
   faults_fall_back();
   a_decision_that_cannot_be_written_is_none();
   events_that_are_not_for_the_caller();
+  events_and_calls_that_are_refused();
   what_contradicts_itself_is_told_once();
   settings_that_no_monitor_can_keep();
   a_status_of_the_settings_has_a_field();

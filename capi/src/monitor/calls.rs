@@ -14,7 +14,6 @@ use super::place::{self, MufasaMonitor, MufasaMonitorInputs};
 use super::settings::MufasaMonitorSettings;
 use crate::convert;
 use crate::cycle::MufasaRoute;
-use crate::detection_index::{DETECTIONS, detection};
 use crate::event::{self, MufasaEvent};
 use crate::memory::{Arena, list, optional, put, required, required_mut};
 use crate::requester::{self, MufasaRequesterState};
@@ -344,8 +343,8 @@ unsafe fn cycle(
     if let Some(it) = unsafe { optional(raw.detections) }? {
         fits(it.items_len, most_detections)?;
         // SAFETY: as above.
-        let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
-        let items = arena.keep(items.iter().map(detection))?;
+        let items = unsafe { list(it.items, it.items_len, convert::DETECTIONS) }?;
+        let items = arena.keep(items.iter().map(convert::detection))?;
         inputs = inputs.detections(it.stamp.time(), items);
     }
     // SAFETY: as above.

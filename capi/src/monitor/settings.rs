@@ -8,6 +8,7 @@ use mufasa::monitor::{Monitor, MonitorError, Settings};
 use crate::convert;
 use crate::cycle::MufasaProfile;
 use crate::parameters::{MufasaParameters, MufasaRequesterParameters};
+use crate::requester;
 use crate::status::MufasaStatus;
 
 /// What a monitor is made with. The last five fields say how much memory it needs; what is longer is
@@ -120,9 +121,8 @@ impl MufasaMonitorSettings {
 pub(super) fn refused(error: MonitorError) -> MufasaStatus {
     match error {
         MonitorError::Stages(_) | MonitorError::Stall { .. } => MufasaStatus::InvalidParameter,
-        MonitorError::Requester(_) | MonitorError::SessionsBefore { .. } => {
-            MufasaStatus::NegativeParameter
-        }
+        MonitorError::Requester(error) => requester::refused(error),
+        MonitorError::SessionsBefore { .. } => MufasaStatus::NegativeParameter,
         MonitorError::NoPeriod => MufasaStatus::InvalidPeriod,
         MonitorError::TimeTooShort { .. } => MufasaStatus::TimeTooShort,
         MonitorError::MaxAgeBelowLMax { .. } => MufasaStatus::MaxAgeBelowLMax,
