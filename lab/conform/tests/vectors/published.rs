@@ -56,22 +56,27 @@ fn requirements() -> BTreeSet<String> {
     }
     names.extend(of_rules());
     names.extend([1, 2, 4, 5, 6, 7, 8, 10, 11, 14].map(|n| format!("H-{n:02}")));
-    names.extend((1..=48).map(|n| format!("F-{n:02}")));
+    names.extend(pages("findings").filter(|name| name.starts_with("F-")));
     names
+}
+
+/// Names of the pages of a folder, without `.md`.
+fn pages(folder: &str) -> impl Iterator<Item = String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+    let files = fs::read_dir(folder).expect("the folder is there");
+    let names = files.map(|file| file.expect("an entry").file_name().into_string().expect("text"));
+    names.filter_map(|name| Some(name.strip_suffix(".md")?.to_owned()))
 }
 
 /// Ids of the pages of rules.
 fn of_rules() -> BTreeSet<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/hardened");
-    let pages = fs::read_dir(folder).expect("spec/hardened/ is there");
-    let pages = pages.map(|page| page.expect("a directory entry").path());
-    let pages = pages.filter(|page| page.extension().is_some_and(|kind| kind == "md"));
-    let ids = |page| -> Vec<String> {
-        let text = fs::read_to_string(page).expect("text");
+    let ids = |page: String| -> Vec<String> {
+        let text = fs::read_to_string(folder.join(page + ".md")).expect("text");
         let lines = text.lines().filter_map(|line| line.strip_prefix("- **["));
         lines.filter_map(|line| Some(line.split_once(']')?.0.to_owned())).collect()
     };
-    pages.flat_map(ids).collect()
+    pages("spec/hardened").flat_map(ids).collect()
 }
 
 /// Every requirement of stages, schedule, distances, protocol, composition and rules has a vector; every rule and finding has
