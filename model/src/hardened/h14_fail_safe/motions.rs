@@ -99,19 +99,7 @@ fn of_track(scene: &Scene, list: &Tracks, track: &Track) -> Motion {
 fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     let lists = usable(scene);
     let confirmed = confirmed(scene);
-    let explaining = |d: usize| confirmed.iter().find(|(_, seen)| seen.detection == Some(d));
-    let (explained, unexplained): (Vec<usize>, Vec<usize>) =
-        (0..list.items.len()).partition(|d| explaining(*d).is_some());
-    let disputed = explained.into_iter().filter(|d| {
-        let Some((_, seen)) = explaining(*d) else { return false };
-        is_disputed(scene, &lists, seen, unexplained.iter().map(|other| &list.items[*other]))
-    });
-    let doubtful: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
-    let of_tracks =
-        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, &lists, list, track, seen));
-    let of_all = (0..list.items.len())
-        .flat_map(|d| of_detection(scene, &lists, list, d, doubtful.contains(&d)));
-    let moving = of_tracks.chain(of_all).map(|pair| {
+    let moving = pairs(scene, list, &lists, &confirmed).into_iter().map(|pair| {
         let d = &list.items[pair.detection];
         let w = velocity(d, &pair.list.items[pair.item], &pair.list.dt);
         let named = Named {
@@ -122,12 +110,39 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
         };
         Motion::new(scene, d, list.stamp_ns, w, named).over(scene, &pair.list.dt)
     });
-    let standing = unexplained.iter().map(|d| {
+    let unexplained = (0..list.items.len()).filter(|d| explaining(&confirmed, *d).is_none());
+    let standing = unexplained.map(|d| {
         let w = Vector { x: Real::zero(), y: Real::zero() };
-        let named = Named { detection: Some(*d), ..Named::default() };
-        Motion::new(scene, &list.items[*d], list.stamp_ns, w, named)
+        let named = Named { detection: Some(d), ..Named::default() };
+        Motion::new(scene, &list.items[d], list.stamp_ns, w, named)
     });
     moving.chain(standing).collect()
+}
+
+/// The confirmed track of which this is the detection.
+fn explaining<'a>(confirmed: &'a [(&Track, Seen)], d: usize) -> Option<&'a Seen> {
+    confirmed.iter().map(|(_, seen)| seen).find(|seen| seen.detection == Some(d))
+}
+
+/// The detections and items that are examined as moving.
+pub fn pairs<'a>(
+    scene: &Scene,
+    list: &Detections,
+    lists: &'a [Usable<'a>],
+    confirmed: &[(&Track, Seen)],
+) -> Vec<Pair<'a>> {
+    let (explained, unexplained): (Vec<usize>, Vec<usize>) =
+        (0..list.items.len()).partition(|d| explaining(confirmed, *d).is_some());
+    let disputed = explained.into_iter().filter(|d| {
+        let Some(seen) = explaining(confirmed, *d) else { return false };
+        is_disputed(scene, lists, seen, unexplained.iter().map(|other| &list.items[*other]))
+    });
+    let doubtful: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
+    let of_tracks =
+        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, lists, list, track, seen));
+    let of_all = (0..list.items.len())
+        .flat_map(|d| of_detection(scene, lists, list, d, doubtful.contains(&d)));
+    of_tracks.chain(of_all).collect()
 }
 
 /// An item of a list is taken of a detection d: where d stood, one at distance <= 0.3 m, or one from which d moved
@@ -139,10 +154,14 @@ fn is_taken(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) 
 }
 
 /// A detection d and an item d' of an earlier list, of which w = (d - d') / dt.
-struct Pair<'a> {
-    detection: usize,
-    item: usize,
-    list: &'a Usable<'a>,
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    /// Index of d.
+    pub detection: usize,
+    /// Index of d' in its list.
+    pub item: usize,
+    /// That list.
+    pub list: &'a Usable<'a>,
 }
 
 /// The list of a confirmed track, and the items of it at distance <= theta_track_max + theta_velocity dt from its past.

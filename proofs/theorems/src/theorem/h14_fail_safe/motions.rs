@@ -1,8 +1,8 @@
 //! H-14: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::detection_history::{confirmed, origin_limit, stands_within};
-use crate::hardened::h14_fail_safe::motions::{Named, all_motions};
+use crate::hardened::detection_history::{confirmed, origin_limit, stands_within, usable};
+use crate::hardened::h14_fail_safe::motions::{Pair, pairs};
 use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
@@ -40,9 +40,9 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "H-14, F-42: if d is the detection of a confirmed track whose own origin is a, an \
                     unexplained detection may come from a, and d may come from b, and did not stand or moved \
                     evenly from b, (d, b) is examined as moving",
-        domain: "all positions, velocities of the track, theta_track_max, theta_velocity, v_object > 0, in a frame with \
-                 its zero at the detection of the track and x along its velocity; one track at its detection, another detection \
-                 farther than theta_track_max; a and b the items of 500 ms ago, b too far from its past, one item of 300 ms ago",
+        domain: "all positions, velocities of the track along x, theta_track_max, theta_velocity, v_object > 0; one \
+                 track at its detection, another detection farther than theta_track_max; a and b the items of \
+                 500 ms ago, b too far from its past, one item of 300 ms ago",
         claim: || disputed(true),
         wrong: Wrong {
             statement: "although nothing that is unexplained may come from a",
@@ -51,13 +51,9 @@ pub const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// A detection at the zero of the frame.
-const ZERO: &str = "zero";
-
-/// A detection anywhere, or at the zero, not longer than 1 m: its direction is not asked for.
+/// A detection anywhere, not longer than 1 m: its direction is not asked for.
 fn anywhere(name: &str) -> Detection {
-    let coordinate =
-        |axis: &str| if name == ZERO { 0.0 } else { open_number(&format!("{name} {axis}")) };
+    let coordinate = |axis: &str| open_number(&format!("{name} {axis}"));
     Detection {
         x: coordinate("x"),
         y: coordinate("y"),
@@ -74,9 +70,7 @@ fn list(millis: i64, items: Vec<Detection>) -> DetectionList {
 
 /// Where `anywhere` is.
 fn place(name: &str) -> Vector {
-    let [x, y] = ["x", "y"].map(|axis| {
-        if name == ZERO { Real::zero() } else { Real::named(&format!("{name} {axis}")) }
-    });
+    let [x, y] = ["x", "y"].map(|axis| Real::named(&format!("{name} {axis}")));
     Vector { x, y }
 }
 
@@ -149,13 +143,12 @@ fn unexplained(supported: bool) -> Formula {
 
 /// Whether the detection and the item of 500 ms ago are examined as moving.
 fn is_examined(scene: &Scene, [detection, item]: [usize; 2]) -> bool {
-    let pair = Named {
-        track: None,
-        detection: Some(detection),
-        item: Some(item),
-        age_ns: Some(500_000_000),
-    };
-    all_motions(scene).iter().any(|motion| motion.named == pair)
+    let Some(list) = &scene.detections else { return false };
+    let lists = usable(scene);
+    let examined = pairs(scene, list, &lists, &confirmed(scene));
+    let is_it =
+        |it: &Pair<'_>| (it.detection, it.item, it.list.age_ns) == (detection, item, 500_000_000);
+    examined.iter().any(is_it)
 }
 
 /// A track anywhere, not longer than 1 m.
@@ -175,15 +168,15 @@ fn says() -> Track {
 
 fn disputed(by_another: bool) -> Formula {
     forget_of_what_roots_are();
-    let track = Track { x: 0.0, y: 0.0, vy: 0.0, ..says() };
-    let scene = scene(vec![track], &[ZERO, "d"]);
+    let track = Track { x: open_number("c x"), y: open_number("c y"), vy: 0.0, ..says() };
+    let scene = scene(vec![track], &["c", "d"]);
     let p = &scene.parameters;
     let past = |dt: Real| {
         let v = Vector { x: Real::named("v x"), y: Real::zero() };
-        &place(ZERO) - &v.scaled(&dt)
+        &place("c") - &v.scaled(&dt)
     };
     // The track is confirmed: c is its detection, a and s are its origins.
-    given(less(&p.theta_track_max, &(&place(ZERO) - &place("d")).length()));
+    given(less(&p.theta_track_max, &(&place("c") - &place("d")).length()));
     given(less(
         &origin_limit(&scene, &Real::ratio(1, 2)),
         &(&past(Real::ratio(1, 2)) - &place("b")).length(),
@@ -191,8 +184,8 @@ fn disputed(by_another: bool) -> Formula {
     if by_another {
         given_may_come_from(&scene, "d", "a");
     }
-    given_may_come_from(&scene, ZERO, "b");
-    given_not_stood(ZERO, "b");
+    given_may_come_from(&scene, "c", "b");
+    given_not_stood("c", "b");
     let is_confirmed =
         confirmed(&scene).first().is_some_and(|(_, seen)| seen.own_origins[1] == Some(0));
     Formula::from(!is_confirmed || is_examined(&scene, [0, 1]))
