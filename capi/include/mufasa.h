@@ -438,10 +438,6 @@ enum MufasaEventType
   MUFASA_EVENT_TYPE_CONFIRM = 6,
   // A station rejects: station, group, session.
   MUFASA_EVENT_TYPE_REJECT = 7,
-  // A result arrives: station, group, session, generated.
-  MUFASA_EVENT_TYPE_DATA = 8,
-  // A cycle ended: safe, groups whose data it used, sessions that they came from.
-  MUFASA_EVENT_TYPE_VERDICT = 9,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -888,17 +884,10 @@ typedef struct MufasaEvent {
   uint32_t group;
   // Sum of MufasaGroup.
   uint32_t groups;
-  // Not 0: the cycle was safe.
-  uint32_t safe;
   // Id of the station, at least 1.
   int64_t station;
   // The session that the message names.
   int64_t session;
-  // Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
-  // in `groups` may be anything.
-  int64_t sessions[2];
-  // When the result was generated, on the CAV's clock.
-  struct MufasaTime generated;
 } MufasaEvent;
 
 // Something to be done.

@@ -1,6 +1,6 @@
-//! Events and actions of a requester, as C gives and gets them.
+//! Events and actions of a monitor, as C gives and gets them.
 
-use mufasa::offloading::requester::{Action, Event, EventKind, Group, Groups, Sessions};
+use mufasa::offloading::requester::{Action, Group, Groups};
 
 use crate::status::MufasaStatus;
 use crate::time::MufasaTime;
@@ -33,10 +33,6 @@ pub enum MufasaEventType {
     Confirm = 6,
     /// A station rejects: station, group, session.
     Reject = 7,
-    /// A result arrives: station, group, session, generated.
-    Data = 8,
-    /// A cycle ended: safe, groups whose data it used, sessions that they came from.
-    Verdict = 9,
 }
 
 /// Something that happens at a time. Fields that its type does not use may be anything.
@@ -51,17 +47,10 @@ pub struct MufasaEvent {
     pub group: u32,
     /// Sum of MufasaGroup.
     pub groups: u32,
-    /// Not 0: the cycle was safe.
-    pub safe: u32,
     /// Id of the station, at least 1.
     pub station: i64,
     /// The session that the message names.
     pub session: i64,
-    /// Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
-    /// in `groups` may be anything.
-    pub sessions: [i64; 2],
-    /// When the result was generated, on the CAV's clock.
-    pub generated: MufasaTime,
 }
 
 /// What the requester does; the comment says which fields of MufasaAction it uses.
@@ -97,10 +86,9 @@ pub struct MufasaAction {
 /// One event never makes more actions than this.
 pub const MUFASA_MAX_ACTIONS: usize = 8;
 
-/// The event of `mufasa`.
-pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
-    let &MufasaEvent { t, event_type, station, session, generated, .. } = raw;
-    let kinds = [
+/// The type of this number.
+pub(crate) fn event_type(raw: u32) -> Result<MufasaEventType, MufasaStatus> {
+    let types = [
         MufasaEventType::Offer,
         MufasaEventType::Withdraw,
         MufasaEventType::Lost,
@@ -108,38 +96,12 @@ pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
         MufasaEventType::Tick,
         MufasaEventType::Confirm,
         MufasaEventType::Reject,
-        MufasaEventType::Data,
-        MufasaEventType::Verdict,
     ];
-    let kind = kinds.into_iter().find(|&kind| kind as u32 == event_type);
-    let kind = match kind.ok_or(MufasaStatus::UnknownValue)? {
-        MufasaEventType::Offer => EventKind::Offer { station, groups: groups(raw.groups)? },
-        MufasaEventType::Withdraw => EventKind::Withdraw { station },
-        MufasaEventType::Lost => EventKind::Lost { station },
-        MufasaEventType::Area => EventKind::Area { groups: groups(raw.groups)? },
-        MufasaEventType::Tick => EventKind::Tick,
-        MufasaEventType::Confirm => {
-            EventKind::Confirm { station, group: group(raw.group)?, session }
-        }
-        MufasaEventType::Reject => EventKind::Reject { station, group: group(raw.group)?, session },
-        MufasaEventType::Data => EventKind::Data {
-            station,
-            group: group(raw.group)?,
-            session,
-            generated_ns: generated.ns,
-        },
-        MufasaEventType::Verdict => {
-            let used = groups(raw.groups)?;
-            let [mot, plan] = raw.sessions;
-            let sessions =
-                Sessions { mot: used.mot.then_some(mot), plan: used.plan.then_some(plan) };
-            EventKind::Verdict { safe: raw.safe != 0, sessions }
-        }
-    };
-    Ok(Event { t_ns: t.ns, kind })
+    types.into_iter().find(|&it| it as u32 == raw).ok_or(MufasaStatus::UnknownValue)
 }
 
-fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
+/// The groups of which this is the sum.
+pub(crate) fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
     let (mot, plan) = (MufasaGroup::Mot as u32, MufasaGroup::Plan as u32);
     if raw & !(mot | plan) != 0 {
         return Err(MufasaStatus::UnknownValue);
@@ -147,7 +109,8 @@ fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
     Ok(Groups { mot: raw & mot != 0, plan: raw & plan != 0 })
 }
 
-fn group(raw: u32) -> Result<Group, MufasaStatus> {
+/// The group of this number.
+pub(crate) fn group(raw: u32) -> Result<Group, MufasaStatus> {
     let found = Group::ALL.into_iter().find(|&group| group_number(group) as u32 == raw);
     found.ok_or(MufasaStatus::UnknownValue)
 }

@@ -71,29 +71,23 @@ fn the_counter_counts() {
     assert!(allocations(|| drop(std::hint::black_box(Box::new(1)))) > 0);
 }
 
+/// A car that stands ahead.
+fn track(id: i64, x: f64) -> MufasaTrack {
+    let MufasaDetection { y, cos, sin, length, width, .. } = detection(x);
+    MufasaTrack { id, x, y, cos, sin, vx: 0.0, vy: 0.0, length, width }
+}
+
+/// The same as the detectors see it.
+fn detection(x: f64) -> MufasaDetection {
+    MufasaDetection { x, y: 0.0, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 }
+}
+
 /// As many tracks, detections and points as the domain allows; a witness that is found late.
 #[test]
 fn a_check_allocates_nothing() {
     let place = |i: usize| f64::from(u16::try_from(i).expect("a small index"));
-    let track = |i: usize| MufasaTrack {
-        id: i64::try_from(i).expect("a small index"),
-        x: 50.0 + place(i),
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        vx: 0.0,
-        vy: 0.0,
-        length: 4.0,
-        width: 2.0,
-    };
-    let detection = |i: usize| MufasaDetection {
-        x: 50.1 + place(i),
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        length: 4.0,
-        width: 2.0,
-    };
+    let track = |i: usize| track(i64::try_from(i).expect("a small index"), 50.0 + place(i));
+    let detection = |i: usize| detection(50.1 + place(i));
     let point = |i: usize| MufasaTrajectoryPoint {
         t: EPOCH,
         x: place(i) / 10.0,
@@ -167,21 +161,9 @@ fn a_monitor_allocates_nothing() {
     let sections =
         [-10.0, 200.0].map(|x| MufasaCrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] });
     let route = MufasaRoute { closed: 0, cross_sections: sections.as_ptr(), cross_sections_len: 2 };
-    let track = MufasaTrack {
-        id: 1,
-        x: 50.0,
-        y: 0.0,
-        cos: 1.0,
-        sin: 0.0,
-        vx: 0.0,
-        vy: 0.0,
-        length: 4.0,
-        width: 2.0,
-    };
+    let (track, detection) = (track(1, 50.0), detection(50.0));
     let tracks = MufasaTrackList { stamp: EPOCH, items: &raw const track, items_len: 1 };
     let message = MufasaTrackMessage { station: 3, session: 1, generated: EPOCH, tracks };
-    let MufasaTrack { x, y, cos, sin, length, width, .. } = track;
-    let detection = MufasaDetection { x, y, cos, sin, length, width };
     let detections =
         MufasaDetectionList { stamp: EPOCH, items: &raw const detection, items_len: 1 };
     let inputs = MufasaMonitorInputs {
@@ -197,11 +179,8 @@ fn a_monitor_allocates_nothing() {
         event_type: kind as u32,
         group: 1,
         groups: 3,
-        safe: 0,
         station: 3,
         session: 1,
-        sessions: [0; 2],
-        generated: EPOCH,
     };
     let events =
         [MufasaEventType::Offer, MufasaEventType::Tick, MufasaEventType::Confirm].map(event);

@@ -238,11 +238,8 @@ static void what_contradicts_itself_is_told_once(void) {
   EXPECT(strstr(mufasa_failed_stage_text(MUFASA_FAILED_STAGE_III), "stage iii,") != NULL);
 }
 
-static void events_that_are_not_for_the_caller(void) {
+static void messages_and_routes_that_are_refused(void) {
   struct MufasaMonitor *monitor = offloading();
-  EXPECT(step(monitor, MUFASA_EVENT_TYPE_DATA, 5 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
-  EXPECT(step(monitor, MUFASA_EVENT_TYPE_VERDICT, 5 * MS, 0, 0) == MUFASA_STATUS_UNKNOWN_VALUE);
-  EXPECT(actions.len == 0 && !is_local(monitor));
   /* A list longer than the settings say is dropped, and no arrival: the session goes on. */
   EXPECT(receive(monitor, 6 * MS, 1, 3) == MUFASA_STATUS_OK && !is_local(monitor));
   EXPECT(actions.len == 1 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
@@ -283,7 +280,7 @@ static void events_and_calls_that_are_refused(void) {
   EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_OK && actions.len == 0);
   event.station = 3; /* two fit */
   EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_TABLE_FULL);
-  event.event_type = MUFASA_EVENT_TYPE_VERDICT + 1;
+  event.event_type = MUFASA_EVENT_TYPE_REJECT + 1;
   EXPECT(mufasa_monitor_step(monitor, &event, &actions) == MUFASA_STATUS_UNKNOWN_VALUE);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_REJECT, 5 * MS, 3, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
   struct MufasaRequesterState now;
@@ -427,7 +424,7 @@ int main(void) {
   a_cycle_without_a_tick_is_unsafe();
   faults_fall_back();
   a_decision_that_cannot_be_written_is_none();
-  events_that_are_not_for_the_caller();
+  messages_and_routes_that_are_refused();
   events_and_calls_that_are_refused();
   what_contradicts_itself_is_told_once();
   settings_that_no_monitor_can_keep();

@@ -268,9 +268,7 @@ fn plain(t: MufasaTime, kind: &EventKind) -> MufasaEvent {
             unreachable!("these have contents")
         }
     };
-    let (event_type, generated, safe) = (event_type as u32, time(0), 0);
-    let sessions = [0; 2];
-    MufasaEvent { t, event_type, group, groups, safe, station, session, sessions, generated }
+    MufasaEvent { t, event_type: event_type as u32, group, groups, station, session }
 }
 
 fn group_state(it: MufasaGroupState) -> GroupState {

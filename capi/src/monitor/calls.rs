@@ -5,7 +5,7 @@ use core::ptr::null_mut;
 
 use mufasa::input::cycle::{CrossSection, Ego, Grid, Route};
 use mufasa::monitor::{Gap, GridMap, Inputs, Monitor, Time};
-use mufasa::offloading::requester::{EventKind, Group};
+use mufasa::offloading::requester::Group;
 use mufasa::report::Problem;
 
 use super::decision::{MufasaActions, MufasaDecision, actions_of, nothing_decided};
@@ -14,7 +14,7 @@ use super::place::{self, MufasaMonitor, MufasaMonitorInputs};
 use super::settings::MufasaMonitorSettings;
 use crate::convert;
 use crate::cycle::MufasaRoute;
-use crate::event::{self, MufasaEvent};
+use crate::event::{self, MufasaEvent, MufasaEventType};
 use crate::memory::{Arena, list, optional, put, required, required_mut};
 use crate::requester::{self, MufasaRequesterState};
 use crate::status::MufasaStatus;
@@ -253,25 +253,19 @@ unsafe fn step(
     event: *const MufasaEvent,
 ) -> Result<MufasaActions, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
-    let event = event::event_of(unsafe { required(event) }?)?;
+    let &MufasaEvent { t, event_type, group, groups, station, session } =
+        unsafe { required(event) }?;
     // SAFETY: as above.
     let monitor = &mut unsafe { called(monitor) }?.monitor;
-    let now = Time::from_nanoseconds(event.t_ns);
-    let actions = match event.kind {
-        EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
-        EventKind::Withdraw { station } => monitor.withdraw(now, station),
-        EventKind::Lost { station } => monitor.lost(now, station),
-        EventKind::Area { groups } => Ok(monitor.area(now, groups)),
-        EventKind::Tick => Ok(monitor.tick(now)),
-        EventKind::Confirm { station, group, session } => {
-            monitor.confirm(now, station, group, session)
-        }
-        EventKind::Reject { station, group, session } => {
-            monitor.reject(now, station, group, session)
-        }
-        EventKind::Data { .. } | EventKind::Verdict { .. } => {
-            return Err(MufasaStatus::UnknownValue);
-        }
+    let now = Time::from_nanoseconds(t.ns);
+    let actions = match event::event_type(event_type)? {
+        MufasaEventType::Offer => monitor.offer(now, station, event::groups(groups)?),
+        MufasaEventType::Withdraw => monitor.withdraw(now, station),
+        MufasaEventType::Lost => monitor.lost(now, station),
+        MufasaEventType::Area => Ok(monitor.area(now, event::groups(groups)?)),
+        MufasaEventType::Tick => Ok(monitor.tick(now)),
+        MufasaEventType::Confirm => monitor.confirm(now, station, event::group(group)?, session),
+        MufasaEventType::Reject => monitor.reject(now, station, event::group(group)?, session),
     };
     actions.map(|actions| actions_of(&actions)).map_err(requester::refused)
 }

@@ -199,6 +199,28 @@ fn the_readme_has_the_shares_of_availability() {
     }
 }
 
+#[test]
+fn the_readme_has_the_times_of_the_page_of_speed() {
+    let tree = Tree::here();
+    let row = |start: &str| -> Vec<f64> {
+        let line = tree.0["docs/speed.md"].lines().find_map(|it| it.strip_prefix(start));
+        let cells = line.unwrap_or_else(|| panic!("{start}")).split('|');
+        cells.filter_map(|cell| cell.trim().parse().ok()).collect()
+    };
+    let cycle = row("| whole cycle: best libraries, loop by hand in v |");
+    let [_, us, ratio, _, _, _, _, most_us, most_ratio] = cycle[..] else { panic!("{cycle:?}") };
+    let times = row("| times |");
+    let [least, _, most] = times[..] else { panic!("{times:?}") };
+    let readme = tree.0["README.md"].split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        format!("takes {us:.1} us with 30 tracks and {most_us:.0} us with 1000:"),
+        format!("{ratio:.1} and {most_ratio:.0} times less than the best libraries,"),
+        format!("Hardened: {least:.0} to {most:.0} times as many instructions"),
+    ] {
+        assert!(readme.contains(&words), "{words}");
+    }
+}
+
 /// Of the line of a page that begins so the counts with this share.
 fn share(page: &str, start: &str, percent: &str) -> String {
     let line = page.lines().find(|it| it.starts_with(start)).unwrap_or_default();
