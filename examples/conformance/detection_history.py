@@ -12,7 +12,7 @@ from geometry import EPS, distance
 from stopping import a_tyre
 
 S = 10**9  # ns
-STOOD = 0.3  # m; no farther from where it is did a detection stand
+NEAR = 0.3  # m; an item no farther from where a detection was shows that it was there
 
 
 def gap(item, track, t):
@@ -121,47 +121,48 @@ class Seen:
         """Whether a detection may be what was at an item, and stands."""
         return distance(item, detection) <= self.parameters["theta_track_max"] + EPS
 
-    def may_come_from(self, detection, item, one):
-        """Whether a detection may come from an item of a usable list: no faster than v_object, and when
-        there are other lists, one of them has an item where it then was."""
-        if distance(item, detection) > self.parameters["v_object"] * one["dt"] + EPS:
-            return False
-        others = [other for other in self.lists if other is not one]
+    def borne_out(self, detection, item, one, bound, a):
+        """Of each other usable list whether it has an item where the detection then was, when it came from that
+        item: at most the bound away from its mean motion, and what an acceleration of at most a adds."""
         w = velocity(item, detection, one)
         moving = {**detection, "vx": w[0], "vy": w[1]}
-        return not others or any(gap(item, moving, -other["dt"]) <= self.off(one["dt"], other["dt"]) + EPS
-                                 for other in others for item in other["items"])
+        for other in self.lists:
+            if other is not one:
+                off = bound + a * other["dt"] * abs(other["dt"] - one["dt"]) / 2
+                yield any(gap(it, moving, -other["dt"]) <= off + EPS for it in other["items"])
 
-    def off(self, dt, other):
-        """How far from its mean motion over dt it was at another time: tyres change a velocity by no more."""
-        return self.parameters["theta_track_max"] + a_tyre(self.parameters) * other * abs(other - dt) / 2
+    def is_in_range(self, detection, item, one):
+        """Whether a detection may have come from an item of a list no faster than v_object."""
+        return distance(item, detection) <= self.parameters["v_object"] * one["dt"] + EPS
 
-    def is_disputed(self, i, unexplained):
-        """Whether an unexplained detection may come from the origin of a confirmed track in its list."""
-        one = self.seen_as(i)
-        own = self.own[next(k for k, other in enumerate(self.lists) if other is one)][i]
-        return any(self.may_come_from(self.detections[d], one["items"][own], one)
-                   for d in unexplained)
+    def may_come_from(self, detection, item, one):
+        """Whether a detection may come from an item of a usable list: when there are other lists, one of them
+        supports it."""
+        bound, a = self.parameters["theta_track_max"], a_tyre(self.parameters)
+        return self.is_in_range(detection, item, one) and (
+            len(self.lists) == 1 or any(self.borne_out(detection, item, one, bound, a)))
+
+    def was_seen_to_come_from(self, detection, item, one):
+        """Whether a detection was seen to come from an item of a usable list: each other list shows it."""
+        a = a_tyre(self.parameters)
+        return self.is_in_range(detection, item, one) and all(self.borne_out(detection, item, one, NEAR, a))
 
     def has_stood(self, detection):
         """Whether it is where each of at least two usable lists has an item."""
         return len(self.lists) > 1 and all(
-            any(distance(item, detection) <= STOOD - EPS for item in one["items"])
+            any(distance(item, detection) <= NEAR - EPS for item in one["items"])
             for one in self.lists)
 
     def moved_evenly(self, detection, item, one):
         """Whether each other list has an item where it was when it came from that item with one velocity."""
-        w = velocity(item, detection, one)
-        moving = {**detection, "vx": w[0], "vy": w[1]}
-        return all(any(gap(other, moving, -another["dt"]) <= STOOD + EPS for other in another["items"])
-                   for another in self.lists if another is not one)
+        return all(self.borne_out(detection, item, one, NEAR, 0))
 
     def pasts(self, detection, one):
         """The items of a list to ask for where a detection was: of what stood, only those near it and those
         from which it was seen to come in every list."""
         if not self.has_stood(detection):
             return one["items"]
-        return [item for item in one["items"] if distance(item, detection) <= STOOD + EPS
+        return [item for item in one["items"] if distance(item, detection) <= NEAR + EPS
                 or self.moved_evenly(detection, item, one)]
 
     def motions(self):
@@ -173,12 +174,10 @@ class Seen:
                     yield detection, item, one["age_ns"]
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
         if self.reference is not None:
-            disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
-            asked = {*unexplained, *disputed}
             for d, detection in enumerate(self.detections):
+                came = self.was_seen_to_come_from if d in self.explained else self.may_come_from
                 for item in self.pasts(detection, self.reference):
-                    moves = d in asked and self.may_come_from(detection, item, self.reference)
-                    if moves or self.may_stand(detection, item):
+                    if self.may_stand(detection, item) or came(detection, item, self.reference):
                         yield detection, item, self.reference["age_ns"]
         for d in unexplained:
             yield self.detections[d], self.detections[d], 1

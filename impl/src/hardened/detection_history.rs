@@ -6,7 +6,6 @@
 //! told apart: stage i fails (`ambiguous`), as that of the strict model does within delta, which
 //! is at least 1e-8.
 
-pub(crate) mod disputed;
 pub(crate) mod explained;
 pub(crate) mod lists;
 mod own;

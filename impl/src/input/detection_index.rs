@@ -116,11 +116,6 @@ impl<'a> DetectionIndex<'a> {
         Ok(index)
     }
 
-    /// The detections. Source: `spec/hardened/what-the-cav-saw.md`.
-    pub const fn items(&self) -> &'a [Detection] {
-        self.items
-    }
-
     /// About as many cells as items, and not more.
     fn choose_cells(&mut self, [width, height]: [f64; 2]) {
         let count = larger(f64::from(short(self.items.len())), 1.0);

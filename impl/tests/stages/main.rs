@@ -7,13 +7,13 @@
 
 mod cells;
 mod close;
-mod disputed;
 mod extremes;
 mod history;
 mod input;
 mod motions;
 mod profiles;
 mod scene;
+mod seen_to_come;
 mod slide;
 mod words;
 mod work;

@@ -26,23 +26,27 @@ fn before(seconds: f64) -> Detection {
 }
 
 /// The car 4.5 m aside, as a track that is confirmed and stands; a thing 4 m farther half a second ago,
-/// with support, would be a car that crosses.
+/// with support by one list, and not by the oldest, would be a car that crosses.
 fn explained(configuration: Configuration) -> Scene {
     let mut scene = crossing(configuration);
     scene.detections = Some(vec![detection(3.0, 50.1), detection(5.0, -4.5)]);
     scene.tracks = Some(vec![track(1, 3.0, 50.0), track(2, 5.0, -4.5)]);
     let items =
         |ms: i64| vec![detection(5.35, -4.5), detection(5.0, -4.5 - 8.0 * ms as f64 * 1e-3)];
-    scene.history = [300, 500].map(|ms| (ms * MS, items(ms))).to_vec();
+    scene.history = [300, 500, 800].map(|ms| (ms * MS, items(ms))).to_vec();
+    scene.history[2].1.truncate(1);
     scene
 }
 
 /// In `PlanRemote` the CAV's own tracks explain.
 #[test]
-fn an_explained_detection_comes_from_its_past_alone() {
+fn an_explained_detection_comes_from_its_past_unless_every_list_shows_another() {
     for configuration in [MotRemote, AllRemote, PlanRemote] {
         let scene = explained(configuration);
         assert!(!met(&scene), "{configuration:?}");
+        let mut shown = explained(configuration);
+        shown.history[2].1.push(detection(5.0, -4.5 - 8.0 * 0.8));
+        assert!(met(&shown), "{configuration:?}");
         let mut unexplained = explained(configuration);
         unexplained.tracks = Some(vec![track(1, 3.0, 50.0)]);
         assert!(met(&unexplained), "{configuration:?}");

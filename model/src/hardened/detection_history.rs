@@ -139,38 +139,53 @@ pub fn list_of(lists: &[Usable], seen: &Seen) -> Option<usize> {
     nearest_to_reference(lists.iter().enumerate().filter(holds)).map(|(k, _)| k)
 }
 
-/// The detection that a confirmed track explains is disputed: one of the `unexplained` detections may
-/// come from what the track has for its own origin in its list.
-pub fn is_disputed<'a>(
-    scene: &Scene,
-    lists: &[Usable],
-    seen: &Seen,
-    mut unexplained: impl Iterator<Item = &'a Object>,
-) -> bool {
-    let Some(k) = list_of(lists, seen) else { return false };
-    let Some(origin) = seen.own_origins[k] else { return false };
-    unexplained.any(|other| may_come_from(scene, lists, other, [k, origin]))
+/// How far an object may have been from d - w dt' at the age dt' of a list, for its w over dt is a mean:
+/// a_tyre dt' abs(dt' - dt) / 2, m.
+fn off_the_mean(scene: &Scene, dt: &Real, other: &Real) -> Real {
+    a_tyre(&scene.parameters.a_b) * other * (other - dt).abs() / Real::from_integer(2)
 }
 
 /// How far from d - w dt' an item of a list of age dt' supports a pair over dt:
 /// theta_track_max + a_tyre dt' abs(dt' - dt) / 2, m.
 pub fn supports_within(scene: &Scene, dt: &Real, other: &Real) -> Real {
-    let p = &scene.parameters;
-    let off = a_tyre(&p.a_b) * other * (other - dt).abs() / Real::from_integer(2);
-    &p.theta_track_max + off
+    &scene.parameters.theta_track_max + off_the_mean(scene, dt, other)
+}
+
+/// How far from d - w dt' an item of a list of age dt' shows a pair over dt: 0.3 m + a_tyre dt' abs(dt' - dt) / 2, m.
+pub fn shown_within(scene: &Scene, dt: &Real, other: &Real) -> Real {
+    stands_within() + off_the_mean(scene, dt, other)
+}
+
+/// abs(d - d') <= v_object dt, d' being an item of a list of age dt.
+fn is_reached(scene: &Scene, d: &Object, before: &Object, dt: &Real) -> bool {
+    is_within(scene, &d.frame.origin, before, &(&scene.parameters.v_object * dt))
 }
 
 /// Whether a detection d may come from an item d', given by list and index: abs(d - d') <= v_object dt
 /// and, when there are other lists, one of them has an item that supports it.
 pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
-    let (list, p) = (&lists[k], &scene.parameters);
+    let list = &lists[k];
     let before = &list.items[item];
     let w = velocity(d, before, &list.dt);
     let supports =
         |other: &Usable| had_it(scene, other, d, &w, &supports_within(scene, &list.dt, &other.dt));
     let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
-    is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
+    is_reached(scene, d, before, &list.dt)
         && (others.peek().is_none() || others.any(|(_, other)| supports(other)))
+}
+
+/// Whether a detection d was seen to come from an item d', given by list and index: abs(d - d') <= v_object dt and each
+/// other list has an item that shows it.
+pub fn was_seen_to_come_from(
+    scene: &Scene,
+    lists: &[Usable],
+    d: &Object,
+    [k, item]: [usize; 2],
+) -> bool {
+    let dt = &lists[k].dt;
+    let limit = |other: &Real| shown_within(scene, dt, other);
+    is_reached(scene, d, &lists[k].items[item], dt)
+        && each_other_had_it(scene, lists, d, [k, item], limit)
 }
 
 /// How far from what stood its items are at most: 0.3 m.
@@ -191,8 +206,19 @@ pub fn has_stood(scene: &Scene, lists: &[Usable], d: &Object) -> bool {
 /// A detection d moved evenly from an item d', given by list and index: each other list has an item at distance <= 0.3 m
 /// from d - w dt'.
 pub fn moved_evenly(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
+    each_other_had_it(scene, lists, d, [k, item], |_| stands_within())
+}
+
+/// Each list but that of d', of age dt', has an item at distance <= limit(dt') from d - w dt'.
+fn each_other_had_it(
+    scene: &Scene,
+    lists: &[Usable],
+    d: &Object,
+    [k, item]: [usize; 2],
+    limit: impl Fn(&Real) -> Real,
+) -> bool {
     let w = velocity(d, &lists[k].items[item], &lists[k].dt);
-    let had = |other: &Usable| had_it(scene, other, d, &w, &stands_within());
+    let had = |other: &Usable| had_it(scene, other, d, &w, &limit(&other.dt));
     lists.iter().enumerate().all(|(other, list)| other == k || had(list))
 }
 

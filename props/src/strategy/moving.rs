@@ -93,42 +93,30 @@ fn explain(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
             list.items.push(history::item(&track, past));
         }
         if draw.one_in(2) {
-            dispute(draw, cycle, &track);
+            shown(draw, cycle);
         }
     }
     cycle.tracks = Some(TrackList { stamp_ns, items: vec![track] });
 }
 
-/// A detection behind the CAV that comes from the last item of each list, or just does not: about
-/// as far beside what supports it as SEEN-16 lets it be, at about `v_object`.
-fn dispute(draw: &mut Draw<'_>, cycle: &mut Cycle, track: &Track) {
+/// One list other than the reference list shows the thing about as far from its mean motion as SEEN-17 lets it be, or
+/// misses it.
+fn shown(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let Some(seen_ns) = cycle.detections.as_ref().map(|list| list.stamp_ns) else { return };
     let dt_of = |list: &DetectionList| seconds(seen_ns - list.stamp_ns);
-    let off_half_a_second = |list: &&DetectionList| (dt_of(list) - 0.5).abs();
-    let reference = (cycle.detection_history.iter())
-        .min_by(|a, b| off_half_a_second(a).total_cmp(&off_half_a_second(b)));
-    let Some((origin, dt)) =
-        reference.and_then(|list| Some((list.items.last()?.clone(), dt_of(list))))
-    else {
-        return;
-    };
-    let back = draw.pick(&[20.0, 9.0, 30.0]);
-    let (cos, sin) = (cycle.ego.cos, cycle.ego.sin);
-    let at = (cycle.ego.x - back * cos, cycle.ego.y - back * sin);
-    let (vx, vy) = ((at.0 - origin.x) / dt, (at.1 - origin.y) / dt);
-    let (p, of_pair) = (cycle.parameters.clone(), dt);
-    for list in &mut cycle.detection_history {
-        let dt = seconds(seen_ns - list.stamp_ns);
-        let bend = 0.5 * dt * (dt - of_pair).abs();
-        let error = draw.near(p.theta_track_max + a_tyre(&p) * bend);
-        let (x, y) = (at.0 - vx * dt + error * sin, at.1 - vy * dt - error * cos);
-        list.items.push(history::item(track, (x, y)));
-    }
-    if draw.one_in(2) {
-        cycle.parameters.v_object = draw.near(vx.hypot(vy)).clamp(1e-3, 1e3);
-    }
-    if let Some(list) = &mut cycle.detections {
-        list.items.push(history::item(track, at));
+    let off_half_a_second = |dt: &f64| (dt - 0.5).abs();
+    let dts: Vec<f64> = cycle.detection_history.iter().map(dt_of).collect();
+    let by_age = |a: &f64, b: &f64| off_half_a_second(a).total_cmp(&off_half_a_second(b));
+    let Some(dt) = dts.iter().copied().min_by(by_age) else { return };
+    let k = draw.below(dts.len());
+    let bend = 0.5 * dts[k] * (dts[k] - dt).abs();
+    let error = draw.near(0.3 + a_tyre(&cycle.parameters) * bend);
+    let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);
+    let items = &mut cycle.detection_history[k].items;
+    if draw.one_in(4) && !items.is_empty() {
+        items.remove(0);
+    } else if let Some(item) = items.first_mut() {
+        (item.x, item.y) = (item.x + error * cos, item.y + error * sin);
     }
 }
 

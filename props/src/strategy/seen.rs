@@ -1,11 +1,11 @@
-//! Something comes across beside the CAV, and a track says that it goes away: whether that track counts depends on one
-//! term of `spec/hardened/what-the-cav-saw.md`, clearly or nearly.
+//! Something comes across beside the CAV, one earlier list does not show it, and a track says that it goes away: whether that
+//! track counts depends on one term of `spec/hardened/what-the-cav-saw.md`, clearly or nearly.
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{self, Frame, seconds};
+use super::base::{self, Frame, a_tyre, seconds};
 use super::draw::Draw;
 use super::obstacle;
 use super::track_validation::{detection, track};
@@ -27,11 +27,12 @@ struct Scene {
     ages: [i64; 3],
     seen_age: i64,
     tracks_age: i64,
+    /// The list that does not show the thing.
+    missed: usize,
     /// Of each list, whether the track has an item there.
     known: [bool; 3],
-    /// Further tracks, by place and velocity, and detections.
+    /// Further tracks, by place and velocity.
     others: Vec<(Vector, Vector)>,
-    detections: Vec<Vector>,
     /// Further items of each list.
     items: [Vec<Vector>; 3],
 }
@@ -64,16 +65,17 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         8 => {
             // One list, at least, is 60 s old, or nearly so.
             cycle.parameters.max_age_ns = 60_000_000_000;
-            let of = draw.pick(&scene.ages);
-            scene.seen_age = 60_000_000_000 - draw.near_ns(of);
+            let of = draw.pick(&[0, 2]);
+            scene.missed = 2 - of;
+            scene.seen_age = 60_000_000_000 - draw.near_ns(scene.ages[of]);
         }
-        9 => disputed(draw, &mut scene, limit),
+        9 => shown(draw, &mut scene, &cycle.parameters),
         10 => {
             // Two lists have it, of which one is about as young or old as may be.
             scene.known = [true, false, true];
             match draw.below(3) {
-                0 => scene.ages[0] = draw.near_ns(200_000_000),
-                _ => scene.ages[2] = draw.near_ns(1_000_000_000),
+                0 => (scene.missed, scene.ages[0]) = (2, draw.near_ns(200_000_000)),
+                _ => (scene.missed, scene.ages[2]) = (0, draw.near_ns(1_000_000_000)),
             }
         }
         // The thing, which is explained, may stand where something was farther off, and come from there.
@@ -98,9 +100,9 @@ fn scene(draw: &mut Draw<'_>) -> Scene {
         ages,
         seen_age: ages_of_both[0],
         tracks_age: ages_of_both[1],
+        missed: draw.pick(&[0, 2]),
         known: [true; 3],
         others: Vec::new(),
-        detections: Vec::new(),
         items: [Vec::new(), Vec::new(), Vec::new()],
     }
 }
@@ -119,18 +121,12 @@ fn slanted(draw: &mut Draw<'_>, scene: &mut Scene, theta_velocity: f64) {
     scene.velocity.0 = -draw.near(most) - draw.pick(&[0.0, 0.5]);
 }
 
-/// The reference list does not have the track's origin; what the CAV sees farther off may come from that
-/// in another list, or just not.
-fn disputed(draw: &mut Draw<'_>, scene: &mut Scene, limit: f64) {
-    scene.known[1] = false;
-    let (from, support) = if draw.one_in(3) { (2, 0) } else { (0, 2) };
-    let origin = back(scene.at, scene.velocity, scene.ages[from]);
-    let other = (scene.at.0, scene.at.1 - 12.0);
-    let dt = seconds(scene.ages[from]);
-    let velocity = ((other.0 - origin.0) / dt, (other.1 - origin.1) / dt);
-    let (x, y) = back(other, velocity, scene.ages[support]);
-    scene.detections.push(other);
-    scene.items[support].push((x + draw.near(limit), y));
+/// That list shows it all the same, as far from an even motion as tyres may have bent it, or just farther.
+fn shown(draw: &mut Draw<'_>, scene: &mut Scene, p: &Parameters) {
+    let [dt, of] = [scene.ages[scene.missed], scene.ages[1]].map(seconds);
+    let off = draw.near(0.3 + a_tyre(p) * dt * (dt - of).abs() / 2.0);
+    let (x, y) = back(scene.at, scene.true_velocity, scene.ages[scene.missed]);
+    scene.items[scene.missed].push(draw.pick(&[(x + off, y), (x - off, y), (x, y - off)]));
 }
 
 /// Another track has the same origin in the reference list, where an item near the track's past means that the thing
@@ -179,10 +175,12 @@ fn put(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle, scene: &Scene) {
         items.push(tracked(id, *place, *velocity, (0.5, 0.5)));
     }
     let mut seen = vec![thing(scene.at)];
-    seen.extend(scene.detections.iter().map(|place| small(*place)));
     let mut lists = Vec::new();
     for (index, age) in scene.ages.iter().enumerate() {
-        let mut items = vec![thing(back(scene.at, scene.true_velocity, *age))];
+        let mut items = Vec::new();
+        if index != scene.missed {
+            items.push(thing(back(scene.at, scene.true_velocity, *age)));
+        }
         if scene.known[index] {
             items.push(small(back(place, scene.velocity, *age)));
         }

@@ -37,11 +37,11 @@ impl Explained {
         found
     }
 
-    /// The track that explains a detection.
+    /// Whether a confirmed track explains a detection.
     #[inline]
-    pub(crate) fn by(&self, detection: usize, rows: &[Row], columns: &[Column]) -> Option<usize> {
-        let track = usize::from(columns.get(detection)?.explained_by);
-        let row = rows.get(track).filter(|_| track < self.tracks)?;
-        (usize::from(row.confirmed_by()?) == detection).then_some(track)
+    pub(crate) fn is_explained(&self, detection: usize, rows: &[Row], columns: &[Column]) -> bool {
+        let by = columns.get(detection).map(|column| usize::from(column.explained_by));
+        let row = by.filter(|&track| track < self.tracks).and_then(|track| rows.get(track));
+        row.and_then(Row::confirmed_by).is_some_and(|item| usize::from(item) == detection)
     }
 }

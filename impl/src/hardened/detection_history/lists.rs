@@ -116,11 +116,6 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
                     list.map(|list| Squares::of((list.items, list.index), side, number, columns));
             }
         }
-        self.listed(list)
-    }
-
-    /// The same after that call.
-    pub(crate) fn listed(&self, list: usize) -> Option<Squares<'c>> {
         self.squares.get(list).copied().flatten()
     }
 
@@ -136,28 +131,27 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.cycle.parameters.theta_track_max + CLOSE
     }
 
-    /// At most so far from where the detection was, on a straight way from its item at an even speed, an item
-    /// of another list supports that (SEEN-16), m.
-    fn supports_within(&self, list: &UsableList<'_>, origin: &Origin) -> f64 {
-        let bend = 0.5 * list.age * (list.age - origin.age).abs();
-        //
-        self.may_stand_within() + a_tyre(&self.cycle.parameters) * bend
-    }
-
-    /// Whether a detection may come from an item, except for the distance: whether another list supports it
-    /// (SEEN-16), when there are other lists (SEEN-15). All are listed.
-    pub(crate) fn is_supported(&self, origin: &Origin, columns: &[Column]) -> bool {
+    /// Whether a detection may come from an item (SEEN-15), or, when it is explained, was seen to (SEEN-17),
+    /// except for the distance. All lists are listed.
+    pub(crate) fn may_come(&self, origin: &Origin, is_explained: bool, columns: &[Column]) -> bool {
         if self.work.is_too_much() {
             // The stage fails anyhow.
             return true;
         }
         self.work.add(SUPPORT);
-        let mut others = self.others(origin).peekable();
-        others.peek().is_none()
-            || others.any(|list| {
-                let reach = self.supports_within(&list.1, origin);
-                self.had_it(list, origin, reach, columns)
-            })
+        let within = if is_explained { STOOD + CLOSE } else { self.may_stand_within() };
+        // No vehicle was farther from an even motion: A-09
+        let a_tyre = a_tyre(&self.cycle.parameters);
+        let shows = |list: Shown<'_>| {
+            let bend = 0.5 * list.1.age * (list.1.age - origin.age).abs();
+            self.had_it(list, origin, within + a_tyre * bend, columns)
+        };
+        let mut others = self.others(origin);
+        if is_explained {
+            return others.all(shows);
+        }
+        let mut others = others.peekable();
+        others.peek().is_none() || others.any(shows)
     }
 
     /// Whether an item is taken (H-14.63). `has_stood`: what is known of that. All lists are listed.

@@ -28,6 +28,7 @@ pub(crate) fn places_of<'c, 'a>(
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
     let more = 2.0 * aside(&cycle.ego, trajectory.points.first()).magnitude();
+    //
     // H-14.27; rounded up, and by nothing where the trajectory begins at the CAV
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };
     Places {

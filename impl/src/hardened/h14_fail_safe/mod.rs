@@ -15,7 +15,6 @@ mod spot;
 pub(crate) mod times;
 pub(crate) mod work;
 
-use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
 use crate::hardened::detection_history::lists::Lists;
 use crate::hardened::detection_history::{DetectionHistory, Seen};
@@ -58,13 +57,11 @@ impl FailSafe<'_, '_> {
             return Some(witness);
         }
         let explained = Explained::new(history, tracks, scratch);
-        let items = detections.map_or(&[][..], |list| list.items);
         let mut motions = Motions {
             meeting: Meeting::new(nodes, trajectory.points, self.route),
             history,
             lists: Lists::new(cycle, history, tracks),
             explained: &explained,
-            disputes: Disputes::new(items, history.index, tracks, &explained),
             first: None,
         };
         let age = |stamp_ns: i64| elapsed_ns(stamp_ns, cycle.now_ns);

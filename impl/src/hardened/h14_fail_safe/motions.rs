@@ -2,13 +2,10 @@
 //! (`spec/hardened/H-14.md#requirements-motions`).
 //!
 //! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which pairs of
-//! a detection and an earlier item are examined; whether they meet the CAV, `meeting` decides. That an
-//! explained detection is disputed is asked late, of a pair that boxes let meet it (`disputed`, with what
-//! it costs).
+//! a detection and an earlier item are examined; whether they meet the CAV, `meeting` decides.
 
 use crate::cycle::steps::{MOTION, PAIR};
 use crate::hardened::detection_history::DetectionHistory;
-use crate::hardened::detection_history::disputed::Disputes;
 use crate::hardened::detection_history::explained::Explained;
 use crate::hardened::detection_history::lists::{Lists, Origin, Past};
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
@@ -26,7 +23,6 @@ pub(super) struct Motions<'m, 'c, 'a> {
     pub(super) history: &'m DetectionHistory<'c, 'a>,
     pub(super) lists: Lists<'m, 'c, 'a>,
     pub(super) explained: &'m Explained,
-    pub(super) disputes: Disputes<'m, 'c, 'a>,
     pub(super) first: Option<Found>,
 }
 
@@ -83,10 +79,11 @@ impl Motions<'_, '_, '_> {
         }
         for (detection, now) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
-            let by = self.explained.by(detection, scratch.rows, scratch.columns);
-            self.anywhere((detection, now), &motion, by, scratch);
+            let is_explained =
+                self.explained.is_explained(detection, scratch.rows, scratch.columns);
+            self.anywhere((detection, now), &motion, is_explained, scratch);
             // H-14.21; A-03
-            if by.is_none() {
+            if !is_explained {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
             }
@@ -164,14 +161,14 @@ impl Motions<'_, '_, '_> {
         });
     }
 
-    /// A detection from every item of the reference list (H-14.19) where it may have stood; one
-    /// that is unexplained, or disputed, also from every item that some other list supports
-    /// (H-14.20), whatever has the item (SEEN-14). `track`: which explains it.
+    /// A detection from every item of the reference list (H-14.19) where it may have stood, and one that no
+    /// track explains from every item that some other list supports, an explained one from every item that
+    /// all others do (H-14.20), whatever has the item (SEEN-14).
     fn anywhere(
         &mut self,
         (detection, now): (usize, &Detection),
         motion: &Motion,
-        track: Option<usize>,
+        is_explained: bool,
         scratch: &mut Scratch<'_>,
     ) {
         let Some(reference) = self.history.reference() else { return };
@@ -199,12 +196,11 @@ impl Motions<'_, '_, '_> {
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };
             let origin = Origin { now: [now.x, now.y], before, list: reference, age };
-            let may_stand = x * x + y * y <= within * within;
-            if may_stand || self.lists.is_supported(&origin, scratch.columns) {
+            let comes = x * x + y * y <= within * within
+                || self.lists.may_come(&origin, is_explained, scratch.columns);
+            if comes {
                 self.keep_pair(&motion, &pair, |it| {
-                    let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
                     it.lists.is_taken(&origin, &mut has_stood, scratch.columns)
-                        && (may_stand || track.is_none_or(is_disputed))
                 });
             }
         });

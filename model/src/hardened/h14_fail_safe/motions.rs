@@ -1,8 +1,9 @@
 //! Which objects are examined, and how they move (`spec/hardened/H-14.md#requirements-motions`).
 
 use crate::hardened::detection_history::{
-    Seen, Usable, confirmed, has_stood, is_disputed, is_within, list_of, may_come_from,
-    moved_evenly, nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
+    Seen, Usable, confirmed, has_stood, is_within, list_of, may_come_from, moved_evenly,
+    nearest_to_reference, origin_limit, past, stands_within, usable, velocity,
+    was_seen_to_come_from,
 };
 use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
@@ -110,7 +111,7 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
         };
         Motion::new(scene, d, list.stamp_ns, w, named).over(scene, &pair.list.dt)
     });
-    let unexplained = (0..list.items.len()).filter(|d| explaining(&confirmed, *d).is_none());
+    let unexplained = (0..list.items.len()).filter(|d| !is_explained(&confirmed, *d));
     let standing = unexplained.map(|d| {
         let w = Vector { x: Real::zero(), y: Real::zero() };
         let named = Named { detection: Some(d), ..Named::default() };
@@ -119,9 +120,9 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
-/// The confirmed track of which this is the detection.
-fn explaining<'a>(confirmed: &'a [(&Track, Seen)], d: usize) -> Option<&'a Seen> {
-    confirmed.iter().map(|(_, seen)| seen).find(|seen| seen.detection == Some(d))
+/// It is the detection of a confirmed track.
+fn is_explained(confirmed: &[(&Track, Seen)], d: usize) -> bool {
+    confirmed.iter().any(|(_, seen)| seen.detection == Some(d))
 }
 
 /// The detections and items that are examined as moving.
@@ -131,17 +132,10 @@ pub fn pairs<'a>(
     lists: &'a [Usable<'a>],
     confirmed: &[(&Track, Seen)],
 ) -> Vec<Pair<'a>> {
-    let (explained, unexplained): (Vec<usize>, Vec<usize>) =
-        (0..list.items.len()).partition(|d| explaining(confirmed, *d).is_some());
-    let disputed = explained.into_iter().filter(|d| {
-        let Some(seen) = explaining(confirmed, *d) else { return false };
-        is_disputed(scene, lists, seen, unexplained.iter().map(|other| &list.items[*other]))
-    });
-    let doubtful: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
     let of_tracks =
         confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, lists, list, track, seen));
     let of_all = (0..list.items.len())
-        .flat_map(|d| of_detection(scene, lists, list, d, doubtful.contains(&d)));
+        .flat_map(|d| of_detection(scene, lists, list, d, is_explained(confirmed, d)));
     of_tracks.chain(of_all).collect()
 }
 
@@ -195,21 +189,22 @@ fn of_confirmed<'a>(
 }
 
 /// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
-/// stand) or, when d is unexplained or disputed (`doubtful`), that d may come from; where d stood, of these those that
-/// are taken.
+/// stand), or that d may come from where it is unexplained, or was seen to come from where it is explained; where d
+/// stood, of these those that are taken.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
     detections: &Detections,
     detection: usize,
-    doubtful: bool,
+    is_explained: bool,
 ) -> Vec<Pair<'a>> {
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
+    let comes_from = if is_explained { was_seen_to_come_from } else { may_come_from };
     let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
-            || doubtful && may_come_from(scene, lists, d, [k, *item])
+            || comes_from(scene, lists, d, [k, *item])
     };
     let is_pair = |item: &usize| is_taken(scene, lists, d, [k, *item]) && is_candidate(item);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()

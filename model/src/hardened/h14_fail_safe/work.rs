@@ -14,14 +14,13 @@ use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
 use crate::numbers::vector::Vector;
 
-/// U being the items of all usable lists: 240 + U for each current detection and each item of the reference list
-/// that are near each other, and 64 + U for each unexplained one and each item of a usable list. Near is at most
-/// v_object dt + theta_track_max + 1 cm. And 2 U for each current detection, and 176 + U for each item that a confirmed
-/// track may come from.
+/// U being the items of all usable lists: 240 + 2 U for each current detection and each item of the reference list
+/// that are near each other, at most v_object dt + theta_track_max + 1 cm apart. And 2 U for each current detection, and
+/// 176 + U for each item that a confirmed track may come from.
 pub fn of_pairs(scene: &Scene) -> i128 {
     let (lists, confirmed) = (usable(scene), confirmed(scene));
     let u = lists.iter().map(|list| list.items.len() as i128).sum::<i128>();
-    let reference = nearest_to_reference(lists.iter().enumerate()).map(|(k, _)| k);
+    let reference = nearest_to_reference(lists.iter().enumerate()).map(|(_, list)| list);
     let near = |detection: &Object, list: &Usable| {
         let (at, p) = (&detection.frame.origin, &scene.parameters);
         let most = &p.v_object * &list.dt + &p.theta_track_max + one() / Real::from_integer(100);
@@ -31,16 +30,10 @@ pub fn of_pairs(scene: &Scene) -> i128 {
         };
         list.items.iter().filter(is_near).count() as i128
     };
-    let detections = scene.detections.iter().flat_map(|list| list.items.iter().enumerate());
-    let of_detections = detections.map(|(d, detection)| {
-        let is_explained = confirmed.iter().any(|(_, seen)| seen.detection == Some(d));
-        let of_lists = lists.iter().enumerate().map(|(k, list)| {
-            let of_reference = if Some(k) == reference { 240 + 2 * u } else { 0 };
-            let each = of_reference + if is_explained { 0 } else { 64 + u };
-            if each > 0 { each * near(detection, list) } else { 0 }
+    let of_detections =
+        scene.detections.iter().flat_map(|list| &list.items).map(|detection| {
+            reference.map_or(0, |list| (240 + 2 * u) * near(detection, list)) + 2 * u
         });
-        of_lists.sum::<i128>() + 2 * u
-    });
     let of_origins = confirmed.iter().filter_map(|(track, seen)| {
         let (_, items) = origins(scene, &lists, track, seen)?;
         Some(items.len() as i128 * (176 + u))
