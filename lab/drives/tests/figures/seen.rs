@@ -1,8 +1,8 @@
 //! What the CAV saw itself: a panel for each term.
 
 use mufasa_model::hardened::detection_history::{
-    Seen, confirmed, is_disputed, list_of, may_come_from, nearest_to_reference, origin_limit, past,
-    seen as seen_of, supports_within, usable,
+    Seen, confirmed, list_of, may_come_from, nearest_to_reference, origin_limit, past,
+    seen as seen_of, shown_within, supports_within, usable, velocity, was_seen_to_come_from,
 };
 use mufasa_model::input::scene::{Object, Scene};
 use serde_json::{Value, json};
@@ -24,7 +24,7 @@ pub fn terms() -> String {
     detection(&mut sheet);
     explained(&mut sheet);
     comes_from(&mut sheet);
-    disputed(&mut sheet);
+    seen_to_come(&mut sheet);
     sheet.finish()
 }
 
@@ -232,26 +232,33 @@ fn comes_from(sheet: &mut Sheet) {
     });
 }
 
-/// The remote leaves out the car that stands, and gives the other a velocity that leads back to it.
-fn disputed(sheet: &mut Sheet) {
-    let parked = car(7.0, -1.6);
-    let history = |age: f64| seen(age, &[car(1.0 - 7.5 * age, 1.0), parked]);
+/// Someone who was seen in every list to come from 1, and in one alone to come from 2.
+fn seen_to_come(sheet: &mut Sheet) {
+    let person = |x: f64, y: f64| [x, y, 0.0, 0.8, 0.8];
     let scene = scene(&json!({
-        "tracks": tracks(0.0, &[(car(1.0, 1.0), [-10.5, 3.0])]), "detections": seen(0.0, &[car(1.0, 1.0), parked]),
-        "detection_history": [history(0.3), history(0.5), history(0.8)],
+        "detections": seen(0.0, &[person(8.0, 1.0)]),
+        "detection_history": [
+            seen(0.3, &[person(3.0, 1.9), person(3.4, -1.1)]),
+            seen(0.5, &[person(0.0, 2.0), person(0.0, -3.0)]),
+            seen(0.8, &[person(-4.0, 3.4)]),
+        ],
     }));
-    let (lists, confirmed) = (usable(&scene), confirmed(&scene));
-    let detections = &scene.detections.as_ref().expect("given").items;
-    let is_disputed = is_disputed(&scene, &lists, &confirmed[0].1, [&detections[1]].into_iter());
-    let verdict = if is_disputed { "disputed" } else { "not disputed" };
-    let words = "The track has the past of the car that stands, which the remote left out and which may come from there.";
-    sheet.panel(&look("Disputed", words), |pen| {
+    let (lists, d) = (usable(&scene), &scene.detections.as_ref().expect("given").items[0]);
+    let words = "Of d' = 1 each other list has an item at d - w dt', at most 0.3 m and as far off as tyres let it be (circles). Of d' = 2 one has none.";
+    sheet.panel(&look("Seen to come from", words), |pen| {
+        let at = object(pen, d, "det");
+        pen.words(at, [0.0, -16.0], "m", "d");
         draw_history(pen, &scene);
-        draw_tracks(pen, &scene);
-        let at = object(pen, &detections[0], "det");
-        pen.words(at, [0.0, -16.0], "m", verdict);
-        let at = object(pen, &detections[1], "det");
-        pen.words(at, [0.0, 40.0], "m", "unexplained");
-        pasts(pen, &scene, 0);
+        let dt = &lists[1].dt;
+        for (i, item) in lists[1].items.iter().enumerate() {
+            for other in [&lists[0], &lists[2]] {
+                let then = xy(&past(&d.frame.origin, &velocity(d, item, dt), &other.dt));
+                pen.circle(then, shown_within(&scene, dt, &other.dt).near(), "limit");
+                pen.line(&[at, then], "limit");
+            }
+            let was_seen = was_seen_to_come_from(&scene, &lists, d, [1, i]);
+            let words = if was_seen { "seen" } else { "not seen" };
+            pen.words(xy(&item.frame.origin), [0.0, 26.0], "m", &format!("{}: {words}", i + 1));
+        }
     });
 }

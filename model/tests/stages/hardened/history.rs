@@ -2,10 +2,13 @@
 //! is too close to call.
 
 use mufasa_model::cycle::check;
-use mufasa_model::hardened::detection_history::{Seen, has_stood, moved_evenly, seen, usable};
+use mufasa_model::hardened::detection_history::{
+    Seen, Usable, has_stood, may_come_from, moved_evenly, seen, shown_within, supports_within,
+    usable, was_seen_to_come_from,
+};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
-use mufasa_model::input::scene::Scene;
-
+use mufasa_model::input::scene::{Object, Scene};
+use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
 
@@ -173,16 +176,39 @@ fn ambiguity_fails_stage_i_and_no_other() {
     assert_eq!(safe(&cycle), NEAR_SAFE);
 }
 
-/// Whether the one detection, at (20, 0), stood: strict, exact, lax. Seen at (20, y) in lists of these ages in ms.
-fn stood(lists: &[(i64, &[f64])]) -> [bool; 3] {
+/// A detection at (20, 0), and items at (20, y) in lists of these ages in ms.
+fn one(lists: &[(i64, &[f64])]) -> Cycle {
     let items = |ys: &[f64]| ys.iter().map(|y| detection(20.0, *y)).collect();
     let lists: Vec<_> = lists.iter().map(|(ms, ys)| (*ms, items(ys))).collect();
-    let cycle = cycle(vec![], vec![detection(20.0, 0.0)], &lists);
+    cycle(vec![], vec![detection(20.0, 0.0)], &lists)
+}
+
+/// What holds of the detection: strict, exact, lax.
+fn holds(cycle: &Cycle, of: impl Fn(&Scene, &[Usable], &Object) -> bool) -> [bool; 3] {
     [Reading::Strict, Reading::Exact, Reading::Lax].map(|reading| {
-        let scene = Scene::new(&cycle, reading);
-        let d = &scene.detections.as_ref().expect("set").items[0];
-        has_stood(&scene, &usable(&scene), d)
+        let scene = Scene::new(cycle, reading);
+        of(&scene, &usable(&scene), &scene.detections.as_ref().expect("set").items[0])
     })
+}
+
+/// Whether it stood.
+fn stood(lists: &[(i64, &[f64])]) -> [bool; 3] {
+    holds(&one(lists), has_stood)
+}
+
+/// The first item of the list of 500 ms.
+fn of_half_a_second(lists: &[Usable]) -> [usize; 2] {
+    [lists.iter().position(|list| list.age_ns == 500_000_000).expect("there is one"), 0]
+}
+
+/// Whether it was seen to come from the first item of 500 ms ago.
+fn came(cycle: &Cycle) -> [bool; 3] {
+    holds(cycle, |scene, lists, d| was_seen_to_come_from(scene, lists, d, of_half_a_second(lists)))
+}
+
+/// Whether it may come from there.
+fn may_come(cycle: &Cycle) -> [bool; 3] {
+    holds(cycle, |scene, lists, d| may_come_from(scene, lists, d, of_half_a_second(lists)))
 }
 
 /// SEEN-18: in each of two usable lists or more.
@@ -240,4 +266,72 @@ fn who_was_seen_to_move_in_every_list_moved_evenly() {
         )
     };
     assert!(alone(&[(500, vec![detection(20.0, 9.0)])]), "no other list");
+}
+
+/// Within the margin of what is examined: strict and exact, strict alone.
+const EXAMINED: [bool; 3] = [true, true, false];
+const STRICTLY: [bool; 3] = [true, false, false];
+
+/// SEEN-17: each other usable list shows it; for "may come from" one is enough.
+#[test]
+fn what_came_from_an_item_was_seen_in_every_list() {
+    let both = |lists: &[(i64, &[f64])]| [came(&one(lists)), may_come(&one(lists))];
+    assert_eq!(both(&[(250, &[0.5]), (500, &[1.0]), (750, &[1.5])]), [YES; 2]);
+    assert_eq!(both(&[(250, &[9.0, 0.5]), (500, &[1.0, 9.0]), (750, &[1.5, 9.0])]), [YES; 2]);
+    assert_eq!(both(&[(250, &[0.5]), (500, &[1.0]), (750, &[9.0])]), [NO, YES]);
+    assert_eq!(both(&[(250, &[]), (500, &[1.0]), (750, &[1.5])]), [NO, YES]);
+    assert_eq!(both(&[(250, &[9.0]), (500, &[1.0]), (750, &[])]), [NO; 2]);
+    // Without other usable lists the distance decides.
+    assert_eq!(both(&[(500, &[34.0])]), [YES; 2]);
+    assert_eq!(both(&[(100, &[9.0]), (500, &[34.0]), (1001, &[])]), [YES; 2]);
+}
+
+/// SEEN-17, MARGIN-01: abs(d - d') <= v_object dt + m.
+#[test]
+fn what_came_from_an_item_is_no_faster_than_v_object() {
+    let from = |y: f64, v_object: f64| {
+        let mut cycle = one(&[(250, &[y / 2.0]), (500, &[y])]);
+        cycle.parameters.v_object = v_object;
+        came(&cycle)
+    };
+    for side in [1.0, -1.0] {
+        let at = |e: f64| from(side * (4.0 + e), 8.0);
+        assert_eq!([at(-2e-6), at(-0.5e-6), at(0.0)], [YES, EXAMINED, EXAMINED]);
+        assert_eq!([at(0.5e-6), at(2e-6)], [STRICTLY, NO]);
+    }
+    assert_eq!(from(4.0, 8f64.next_down()), STRICTLY);
+}
+
+/// SEEN-17, MARGIN-01: each other list has an item at distance <= 0.3 m + a_tyre dt' abs(dt' - dt)/2 + m. With a_tyre =
+/// 11.5 m/s^2 this is 0.659375 m 250 ms ago and 1.378125 m 750 ms ago, from 0.359375 m and 1.078125 m on the other side.
+#[test]
+fn margins_move_what_was_seen_to_come() {
+    let from =
+        |of_250: f64, of_750: f64| one(&[(250, &[of_250]), (500, &[-0.71875]), (750, &[of_750])]);
+    let younger = |y: f64| came(&from(y, 0.0));
+    let older = |y: f64| came(&from(0.0, y));
+    for at in [&younger as &dyn Fn(f64) -> [bool; 3], &older] {
+        assert_eq!([at(0.3 - 2e-6), at(0.3 - 0.5e-6), at(0.3)], [YES, EXAMINED, EXAMINED]);
+        assert_eq!(at(0.3f64.next_up()), STRICTLY);
+        assert_eq!([at(0.3 + 0.5e-6), at(0.3 + 2e-6)], [STRICTLY, NO]);
+    }
+    // With theta_track_max = 1 m an item farther away supports it.
+    assert_eq!([came(&from(0.9, 0.9)), may_come(&from(0.9, 0.9))], [NO, YES]);
+    // Who brakes harder than 11.5 m/s^2 is looked for farther away.
+    let mut hard = from(0.5, 0.5);
+    assert_eq!(came(&hard), NO);
+    hard.parameters.a_b = 20.0;
+    assert_eq!(came(&hard), YES);
+}
+
+/// SEEN-16, SEEN-17: a_tyre dt' abs(dt' - dt)/2 and 0.3 m or theta_track_max.
+#[test]
+fn the_radii_around_where_it_was_are_those_of_the_text() {
+    let scene = scene(&one(&[]));
+    let s = Real::from_double;
+    for (dt, other, off) in [(0.5, 0.25, 0.359_375), (0.5, 0.75, 1.078_125), (0.25, 0.5, 0.718_75)]
+    {
+        assert_eq!(shown_within(&scene, &s(dt), &s(other)), s(0.3) + s(off));
+        assert_eq!(supports_within(&scene, &s(dt), &s(other)), s(1.0) + s(off));
+    }
 }

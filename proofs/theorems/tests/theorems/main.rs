@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// They take minutes. `mufasa prove` proves them, at night.
 const LONG: [&str; 2] = [
     "the_motion_of_a_confirmed_track_is_examined_whatever_the_track_says",
-    "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
+    "the_motion_of_a_detection_that_every_list_shows_is_examined_whatever_tracks_say",
 ];
 
 #[test]

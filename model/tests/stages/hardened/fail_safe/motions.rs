@@ -52,44 +52,99 @@ fn pair(detection: usize, item: usize, ms: i64) -> Named {
 }
 
 const A: [f64; 4] = [30.0, 0.0, 8.0, 0.0];
-/// F-38: a car stands, another passes it, and the remote exchanges their pasts. Both detections are explained,
-/// and neither is disputed.
+/// F-38: a car stands, another passes it, and the remote exchanges their pasts. Both detections are explained.
 fn exchanged() -> Cycle {
     let mut cycle = detected(PlanRemote, &[[11.0, 0.0, 0.0, 0.0], [11.0, 2.0, 8.0, 0.0]]);
     cycle.tracks = tracks(vec![says(7, [11.0, 0.0, 8.0, -2.0]), says(8, [11.0, 2.0, 0.0, 2.0])]);
     cycle
 }
 
-/// d may stand: who stands is examined as standing, whatever its confirmed track claims; who passed has the
-/// false motion alone. Who stood in every list has no false motion.
-/// H-14.18, H-14.20, H-14.63, SEEN-14.
+/// d may stand: who stands is examined as standing, and who passed as it was seen to, whatever their confirmed tracks
+/// claim. Who stood in every list has no false motion.
+/// H-14.18, H-14.20, H-14.63, SEEN-14, SEEN-17.
 #[test]
-fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
+fn who_has_an_exchanged_past_is_examined_as_seen() {
     let expected = [
         (of_track(7), [8.0, -2.0]),
         (of_track(8), [0.0, 2.0]),
         (pair(0, 1, 500), [8.0, -4.0]),
         (pair(1, 0, 500), [0.0, 4.0]),
         (pair(0, 0, 500), [0.0; 2]),
+        (pair(1, 1, 500), [8.0, 0.0]),
     ];
     let stood = [&expected[..2], &expected[3..]].concat();
     assert_eq!(named(&exchanged()), stood);
-    let mut moved = exchanged();
-    moved.detection_history[0].items[0].y = 0.4;
-    assert_eq!(named(&moved), expected);
-    // It stands before the CAV, and nothing else is in its way. Half a second ago it was y m to the left.
-    let seen_at = |y: f64| {
+    // The list of 250 ms ago has it elsewhere.
+    let moved = || {
         let mut cycle = exchanged();
+        let item = &mut cycle.detection_history[0].items[0];
+        (item.x, item.y) = (11.7, 0.3);
+        cycle
+    };
+    assert_eq!(named(&moved()), expected);
+    // It stands before the CAV, and nothing else is in its way. Half a second ago it was y m to the left.
+    let seen_at = |y: f64, mut cycle: Cycle| {
         (cycle.ego.width, cycle.parameters.safety_time) = (1.8, 0.1);
         cycle.detection_history[1].items[0].y = y;
         found(&cycle).map(|it| (it.track, it.detection, it.item, it.age_ns))
     };
     let stands = Some((None, Some(0), Some(0), Some(500_000_000)));
-    assert_eq!([seen_at(0.0), seen_at(1.0)], [stands; 2]);
-    assert_eq!(seen_at(1f64.next_up()), None, "farther than theta_track_max");
+    assert_eq!([seen_at(0.0, exchanged()), seen_at(1.0, moved())], [stands; 2]);
+    let farther = 1f64.next_up();
+    assert_eq!(seen_at(farther, moved()), None, "farther than theta_track_max");
+    assert_eq!(seen_at(farther, exchanged()), stands, "and seen to come from there");
 }
 
-/// The list of a confirmed track, each item near its past, with 1 m + 2 m/s * 0.5 s included.
+/// A car drives at 8 m/s, and there was something beside it 250, 500 and 750 ms ago. A false track says that it came
+/// from there, and stands.
+fn followed() -> Cycle {
+    let list = |ms: i64, items: &[[f64; 2]]| DetectionList {
+        stamp_ns: NOW - ms * 1_000_000,
+        items: items.iter().map(|[x, y]| detection(*x, *y)).collect(),
+    };
+    let mut cycle = detected(PlanRemote, &[A]);
+    cycle.detection_history = vec![
+        list(250, &[[28.0, 0.0], [30.0, 1.0]]),
+        list(500, &[[26.0, 0.0], [30.0, 1.5]]),
+        list(750, &[[24.0, 0.0]]),
+    ];
+    cycle.tracks = tracks(vec![says(7, [30.0, 0.0, 0.0, 0.0])]);
+    cycle
+}
+
+/// H-14.20: of an explained detection what every list shows is examined, whatever the track says; of an unexplained one
+/// what one list supports.
+#[test]
+fn an_explained_detection_is_examined_as_every_list_shows() {
+    let with = |change: fn(&mut Cycle)| {
+        let mut cycle = followed();
+        change(&mut cycle);
+        let of = |cycle: &Cycle| named(cycle).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+        let explained = of(&cycle);
+        cycle.tracks = tracks(vec![]);
+        (explained, of(&cycle))
+    };
+    let standing = Named { detection: Some(0), ..Named::default() };
+    let [from_there, beside] = [pair(0, 0, 500), pair(0, 1, 500)];
+    let believed = vec![of_track(7), beside];
+    let of_unexplained = vec![from_there, beside, standing];
+    let seen = (vec![of_track(7), beside, from_there], of_unexplained.clone());
+    let hidden = (believed.clone(), of_unexplained);
+    assert_eq!(with(|_| ()), seen);
+    assert_eq!(with(|c| c.detection_history[2].items.clear()), hidden);
+    // 0.3 m and theta_track_max, and as much as tyres let it be off.
+    assert_eq!(with(|c| c.detection_history[0].items[0].y = -0.65), seen);
+    assert_eq!(with(|c| c.detection_history[0].items[0].y = -0.67), hidden);
+    assert_eq!(with(|c| c.detection_history[2].items[0].y = -1.37), seen);
+    assert_eq!(with(|c| c.detection_history[2].items[0].y = -1.39), hidden);
+    // Faster than v_object it is not looked for.
+    assert_eq!(with(|c| c.parameters.v_object = 8.0), seen);
+    let slower = (believed, vec![beside, standing]);
+    assert_eq!(with(|c| c.parameters.v_object = 8f64.next_down()), slower);
+}
+
+/// The list of a confirmed track, each item near its past, with 1 m + 2 m/s * 0.5 s included. The detection was seen to
+/// come from the first one, too.
 /// H-14.18, SEEN-12.
 #[test]
 fn items_near_the_past_of_a_confirmed_track_are_examined() {
@@ -101,12 +156,12 @@ fn items_near_the_past_of_a_confirmed_track_are_examined() {
     };
     // Its past is at 26.
     let [strict, exact, lax] = [Reading::Strict, Reading::Exact, Reading::Lax];
-    assert_eq!([with(24.0, exact), with(24f64.next_down(), exact)], [3, 2]);
+    assert_eq!([with(24.0, exact), with(24f64.next_down(), exact)], [4, 3]);
     let all = |x: f64| [strict, exact, lax].map(|reading| with(x, reading));
-    assert_eq!(all(24.0 + 2e-6), [3; 3]);
-    assert_eq!(all(24.0 + 0.5e-6), [3, 3, 2]);
-    assert_eq!(all(24.0 - 0.5e-6), [3, 2, 2]);
-    assert_eq!(all(24.0 - 2e-6), [2; 3]);
+    assert_eq!(all(24.0 + 2e-6), [4; 3]);
+    assert_eq!(all(24.0 + 0.5e-6), [4, 4, 3]);
+    assert_eq!(all(24.0 - 0.5e-6), [4, 3, 3]);
+    assert_eq!(all(24.0 - 2e-6), [3; 3]);
     // Its own origin in a list of 250 ms alone.
     let mut younger = detected(MotRemote, &[A]);
     younger.tracks = tracks(vec![says(7, A)]);
@@ -222,6 +277,7 @@ fn margins_move_the_items_of_who_stood() {
     let mut near = detected(PlanRemote, &[[30.0, 0.0, 0.0, 0.0]]);
     near.tracks = tracks(vec![says(7, [30.0, 0.0, 0.0, 0.0])]);
     (near.parameters.theta_track_max, near.parameters.theta_velocity) = (0.125, 0.125);
+    near.parameters.v_object = 0.25;
     near.detection_history[1].items.push(detection(30.0, 0.25));
     assert_eq!(
         named(&near),
@@ -254,9 +310,9 @@ fn work_of_pairs_is_that_of_the_text() {
         items.extend(vec![detection(-900.0, 0.0); detections]);
         of_pairs(&scene(&cycle, Reading::Strict))
     };
-    assert_eq!(with(vec![], 0, 0), (240 + 2 * 2) + 2 * (64 + 2) + 2 * 2);
-    assert_eq!(with(vec![], 3, 0), (240 + 2 * 5) + 2 * (64 + 5) + 2 * 5);
-    assert_eq!(with(vec![], 3, 2), (240 + 2 * 5) + 2 * (64 + 5) + 3 * 2 * 5, "three detections");
+    assert_eq!(with(vec![], 0, 0), (240 + 2 * 2) + 2 * 2);
+    assert_eq!(with(vec![], 3, 0), (240 + 2 * 5) + 2 * 5);
+    assert_eq!(with(vec![], 3, 2), (240 + 2 * 5) + 3 * 2 * 5, "three detections");
     let explained = says(7, [30.0, 0.0, 0.0, 0.0]);
     assert_eq!(with(vec![explained], 3, 0), (240 + 2 * 5) + 2 * 5 + (176 + 5));
     // The detection stood: only one of the two items of 500 ms ago is taken.

@@ -1,13 +1,15 @@
 //! H-14: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
 use crate::claim::{Theorem, Wrong};
-use crate::hardened::detection_history::{confirmed, origin_limit, stands_within, usable};
+use crate::hardened::detection_history::{confirmed, stands_within, usable};
 use crate::hardened::h14_fail_safe::motions::{Pair, pairs};
 use crate::hardened::h14_fail_safe::times::a_tyre;
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{Formula, at_most, forget_of_what_roots_are, given, less};
+use crate::numbers::real::formula::{
+    Formula, at_most, equal, forget_of_what_roots_are, given, less, same,
+};
 use crate::numbers::real::hole::open_number;
 use crate::numbers::vector::Vector;
 use crate::services::configuration::Configuration::MotRemote;
@@ -36,17 +38,18 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong { statement: "and so is (d, d'') for every item d''", claim: || of_track(1) },
     },
     Theorem {
-        id: "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
-        statement: "H-14, F-42: if d is the detection of a confirmed track whose own origin is a, an \
-                    unexplained detection may come from a, and d may come from b, and did not stand or moved \
-                    evenly from b, (d, b) is examined as moving",
-        domain: "all positions, velocities of the track along x, theta_track_max, theta_velocity, v_object > 0; one \
-                 track at its detection, another detection farther than theta_track_max; a and b the items of \
-                 500 ms ago, b too far from its past, one item of 300 ms ago",
-        claim: || disputed(true),
+        id: "the_motion_of_a_detection_that_every_list_shows_is_examined_whatever_tracks_say",
+        statement: "H-14, F-38, F-42, F-57: if abs(d - d') <= v_object dt for d and d', items of the current and the \
+                    reference list, and each other usable list has an item at distance <= 0.3 m + a_tyre dt' \
+                    abs(dt' - dt)/2 from d - w dt', and d did not stand or moved evenly from d', (d, d') is \
+                    examined as moving",
+        domain: "all positions, velocities of the track along x and y, theta_velocity, v_object > 0, theta_track_max \
+                 >= 0.3 m; one track, anywhere, d the only detection, d' the second of two items of 500 ms ago, one \
+                 item of 300 ms ago and one of 800 ms ago",
+        claim: || seen_to_come(true),
         wrong: Wrong {
-            statement: "although nothing that is unexplained may come from a",
-            claim: || disputed(false),
+            statement: "also where the list of 800 ms ago does not show it",
+            claim: || seen_to_come(false),
         },
     },
 ];
@@ -74,14 +77,15 @@ fn place(name: &str) -> Vector {
     Vector { x, y }
 }
 
-/// A scene of MotRemote with these tracks and detections, the items a and b of 500 ms ago and s of 300 ms ago,
-/// and parameters above 0.
-fn scene(tracks: Vec<Track>, detections: &[&str]) -> Scene {
+/// A scene of MotRemote with these tracks, the detection d, the items a and b of 500 ms ago and s of 300 ms ago, this
+/// list before them, and parameters above 0.
+fn scene(tracks: Vec<Track>, before: Option<DetectionList>) -> Scene {
     let mut cycle = base::cycle(Profile::HARDENED, MotRemote);
     cycle.tracks = Some(TrackList { stamp_ns: NOW_NS, items: tracks });
-    cycle.detections = Some(list(0, detections.iter().copied().map(anywhere).collect()));
+    cycle.detections = Some(list(0, vec![anywhere("d")]));
     cycle.detection_history =
         vec![list(300, vec![anywhere("s")]), list(500, vec![anywhere("a"), anywhere("b")])];
+    cycle.detection_history.extend(before);
     let p = &mut cycle.parameters;
     for (name, parameter) in [
         ("theta_track_max", &mut p.theta_track_max),
@@ -101,44 +105,79 @@ fn given_within(vector: &Vector, limit: &Real) {
     given(at_most(&vector.length(), limit));
 }
 
-/// Assumes that the detection may come from the item of 500 ms ago, the support being that of 300 ms ago.
-fn given_may_come_from(scene: &Scene, detection: &str, item: &str) {
-    given_slow(scene, detection, item);
-    // 0.3 s, and 0.2 s between the two lists.
-    let bend = a_tyre(&scene.parameters.a_b) * Real::ratio(3, 100);
-    given_within(&from_support(detection, item), &(&scene.parameters.theta_track_max + bend));
-}
-
-/// Assumes that the detection is at most v_object dt from the item of 500 ms ago.
-fn given_slow(scene: &Scene, detection: &str, item: &str) {
-    let moved = &place(detection) - &place(item);
+/// Assumes that d is at most v_object dt from b, of 500 ms ago.
+fn given_slow(scene: &Scene) {
+    let moved = &place("d") - &place("b");
     given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
 }
 
-/// Where d was 300 ms ago, d - w dt' with w = (d - d') / 0.5 s and dt' = 0.3 s, from the item of that time.
-fn from_support(detection: &str, item: &str) -> Vector {
-    let [d, before, support] = [detection, item, "s"].map(place);
-    let then = &d - &(&d - &before).scaled(&Real::ratio(3, 5));
-    &then - &support
+/// Assumes that an item is at most this far, and what tyres let an object be off its mean, from where d was at its time,
+/// `tenths` of a second ago.
+fn given_near(scene: &Scene, limit: &Real, item: &str, tenths: i64) {
+    let off = Real::ratio(tenths * (tenths - 5).abs(), 200);
+    given_within(&from_then("b", item, tenths), &(limit + a_tyre(&scene.parameters.a_b) * off));
 }
 
-/// Assumes that the detection is not where the item of 300 ms ago was, or moved evenly from that of 500 ms ago.
-fn given_not_stood(detection: &str, item: &str) {
-    let from_there = (&place(detection) - &place("s")).length();
-    let moved_evenly = at_most(&from_support(detection, item).length(), &stands_within());
-    given(Formula::Any(vec![less(&stands_within(), &from_there), moved_evenly]));
+/// Where d was `tenths` of a second ago, d - w dt' with w = (d - d') / 0.5 s, from the item of that time.
+fn from_then(before: &str, item: &str, tenths: i64) -> Vector {
+    let [d, before, item] = ["d", before, item].map(place);
+    let then = &d - &(&d - &before).scaled(&Real::ratio(tenths, 5));
+    &then - &item
+}
+
+/// Assumes that d did not stand, being farther than 0.3 m from all items of a list, or moved evenly from that of 500 ms
+/// ago.
+fn given_not_stood(before: &str, others: &[(&str, i64)]) {
+    let is_off = |item: &str| less(&stands_within(), &(&place("d") - &place(item)).length());
+    let is_even = |(item, tenths): &(&str, i64)| {
+        at_most(&from_then(before, item, *tenths).length(), &stands_within())
+    };
+    let moved_evenly = Formula::All(others.iter().map(is_even).collect());
+    let of_reference = Formula::All(["a", "b"].map(is_off).into());
+    let of_others = others.iter().map(|(item, _)| is_off(item));
+    given(Formula::Any(of_others.chain([of_reference, moved_evenly]).collect()));
 }
 
 fn unexplained(supported: bool) -> Formula {
     forget_of_what_roots_are();
-    let scene = scene(Vec::new(), &["d"]);
+    let scene = scene(Vec::new(), None);
+    given_slow(&scene);
     if supported {
-        given_may_come_from(&scene, "d", "b");
-    } else {
-        given_slow(&scene, "d", "b");
+        given_near(&scene, &scene.parameters.theta_track_max, "s", 3);
     }
-    given_not_stood("d", "b");
+    given_not_stood("b", &[("s", 3)]);
     Formula::from(is_examined(&scene, [0, 1]))
+}
+
+fn seen_to_come(by_each: bool) -> Formula {
+    if by_each {
+        forget_of_what_roots_are();
+    }
+    let scene = scene(vec![says()], Some(list(800, vec![anywhere("t")])));
+    let limit = stands_within();
+    given(at_most(&limit, &scene.parameters.theta_track_max));
+    given_slow(&scene);
+    given_near(&scene, &limit, "s", 3);
+    if by_each {
+        given_near(&scene, &limit, "t", 8);
+    } else {
+        given_hidden();
+    }
+    given_not_stood("b", &[("s", 3), ("t", 8)]);
+    Formula::from(is_examined(&scene, [0, 1]))
+}
+
+/// Assumes that d came from b, and that a track that stands at d has a and s for its origins: with all this given a
+/// counterexample has real roots.
+fn given_hidden() {
+    for (name, [x, y]) in
+        [("d", [0, 0]), ("s", [3, 0]), ("a", [0, 1]), ("b", [5, 0]), ("p", [0, 0]), ("v", [0, 0])]
+    {
+        given(same(&place(name), &Vector { x: Real::from_integer(x), y: Real::from_integer(y) }));
+    }
+    for (name, value) in [("theta_track_max", 1), ("theta_velocity", 7), ("v_object", 70)] {
+        given(equal(&Real::named(name), &Real::from_integer(value)));
+    }
 }
 
 /// Whether the detection and the item of 500 ms ago are examined as moving.
@@ -166,40 +205,15 @@ fn says() -> Track {
     }
 }
 
-fn disputed(by_another: bool) -> Formula {
-    forget_of_what_roots_are();
-    let track = Track { x: open_number("c x"), y: open_number("c y"), vy: 0.0, ..says() };
-    let scene = scene(vec![track], &["c", "d"]);
-    let p = &scene.parameters;
-    let past = |dt: Real| {
-        let v = Vector { x: Real::named("v x"), y: Real::zero() };
-        &place("c") - &v.scaled(&dt)
-    };
-    // The track is confirmed: c is its detection, a and s are its origins.
-    given(less(&p.theta_track_max, &(&place("c") - &place("d")).length()));
-    given(less(
-        &origin_limit(&scene, &Real::ratio(1, 2)),
-        &(&past(Real::ratio(1, 2)) - &place("b")).length(),
-    ));
-    if by_another {
-        given_may_come_from(&scene, "d", "a");
-    }
-    given_may_come_from(&scene, "c", "b");
-    given_not_stood("c", "b");
-    let is_confirmed =
-        confirmed(&scene).first().is_some_and(|(_, seen)| seen.own_origins[1] == Some(0));
-    Formula::from(!is_confirmed || is_examined(&scene, [0, 1]))
-}
-
 fn of_track(all: usize) -> Formula {
-    let scene = scene(vec![says()], &["d"]);
+    let scene = scene(vec![says()], None);
     let confirmed = confirmed(&scene);
     let Some((_, seen)) = confirmed.first() else { return Formula::Known(true) };
     // Two lists: a backed track has its own origin in both.
     let (Some(d), Some(origin)) = (seen.detection, seen.own_origins[1]) else {
         return Formula::Known(false);
     };
-    given_not_stood("d", ["a", "b"][origin]);
+    given_not_stood(["a", "b"][origin], &[("s", 3)]);
     let examined = |item: usize| is_examined(&scene, [d, item]);
     Formula::from(examined(origin) && (all == 0 || (0..2).all(examined)))
 }
