@@ -138,7 +138,7 @@ class Seen:
     def may_come_from(self, detection, item, one):
         """Whether a detection may come from an item of a usable list: when there are other lists, one of them
         supports it."""
-        bound, a = self.parameters["theta_track_max"], a_tyre(self.parameters)
+        bound, a = max(self.parameters["theta_track_max"], NEAR), a_tyre(self.parameters)
         return self.is_in_range(detection, item, one) and (
             len(self.lists) == 1 or any(self.borne_out(detection, item, one, bound, a)))
 

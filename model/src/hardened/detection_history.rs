@@ -146,9 +146,9 @@ fn off_the_mean(scene: &Scene, dt: &Real, other: &Real) -> Real {
 }
 
 /// How far from d - w dt' an item of a list of age dt' supports a pair over dt:
-/// theta_track_max + a_tyre dt' abs(dt' - dt) / 2, m.
+/// max(theta_track_max, 0.3 m) + a_tyre dt' abs(dt' - dt) / 2, m.
 pub fn supports_within(scene: &Scene, dt: &Real, other: &Real) -> Real {
-    &scene.parameters.theta_track_max + off_the_mean(scene, dt, other)
+    scene.parameters.theta_track_max.clone().max(stands_within()) + off_the_mean(scene, dt, other)
 }
 
 /// How far from d - w dt' an item of a list of age dt' shows a pair over dt: 0.3 m + a_tyre dt' abs(dt' - dt) / 2, m.

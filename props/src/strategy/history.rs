@@ -92,7 +92,8 @@ pub fn of_moving(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx
             if Some(dt_ns) != reference {
                 // So far it moved evenly (SEEN-19), or is borne out.
                 let bend = 0.5 * dt * (dt - reference.map_or(dt, seconds)).abs();
-                let borne = cycle.parameters.theta_track_max + a_tyre(&cycle.parameters) * bend;
+                let borne =
+                    cycle.parameters.theta_track_max.max(0.3) + a_tyre(&cycle.parameters) * bend;
                 let limit = draw.pick(&[borne, 0.3]);
                 let error = draw.near(limit);
                 let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);

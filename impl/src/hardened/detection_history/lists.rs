@@ -139,7 +139,8 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             return true;
         }
         self.work.add(SUPPORT);
-        let within = if is_explained { STOOD + CLOSE } else { self.may_stand_within() };
+        let shown = STOOD + CLOSE;
+        let within = if is_explained { shown } else { larger(self.may_stand_within(), shown) };
         // No vehicle was farther from an even motion: A-09
         let a_tyre = a_tyre(&self.cycle.parameters);
         let shows = |list: Shown<'_>| {

@@ -244,7 +244,7 @@ fn seen_to_come(sheet: &mut Sheet) {
         ],
     }));
     let (lists, d) = (usable(&scene), &scene.detections.as_ref().expect("given").items[0]);
-    let words = "Of d' = 1 each other list has an item at d - w dt', at most 0.3 m and as far off as tyres let it be (circles). Of d' = 2 one has none.";
+    let words = "Of d' = 1 each other list has an item near d - w dt' (circles, of 0.3 m and what tyres let it be off). Of d' = 2 one has none.";
     sheet.panel(&look("Seen to come from", words), |pen| {
         let at = object(pen, d, "det");
         pen.words(at, [0.0, -16.0], "m", "d");

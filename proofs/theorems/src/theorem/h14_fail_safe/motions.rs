@@ -43,8 +43,8 @@ pub const THEOREMS: &[Theorem] = &[
                     reference list, and each other usable list has an item at distance <= 0.3 m + a_tyre dt' \
                     abs(dt' - dt)/2 from d - w dt', and d did not stand or moved evenly from d', (d, d') is \
                     examined as moving",
-        domain: "all positions, velocities of the track along x and y, theta_velocity, v_object > 0, theta_track_max \
-                 >= 0.3 m; one track, anywhere, d the only detection, d' the second of two items of 500 ms ago, one \
+        domain: "all positions, velocities of the track along x and y, theta_track_max, theta_velocity, v_object \
+                 > 0; one track, anywhere, d the only detection, d' the second of two items of 500 ms ago, one \
                  item of 300 ms ago and one of 800 ms ago",
         claim: || seen_to_come(true),
         wrong: Wrong {
@@ -155,7 +155,6 @@ fn seen_to_come(by_each: bool) -> Formula {
     }
     let scene = scene(vec![says()], Some(list(800, vec![anywhere("t")])));
     let limit = stands_within();
-    given(at_most(&limit, &scene.parameters.theta_track_max));
     given_slow(&scene);
     given_near(&scene, &limit, "s", 3);
     if by_each {
