@@ -141,7 +141,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.work.add(SUPPORT);
         let shown = STOOD + CLOSE;
         let within = if is_explained { shown } else { larger(self.may_stand_within(), shown) };
-        // No vehicle was farther from an even motion: A-09
+        // No vehicle was farther from an even motion (SEEN-16, SEEN-17): A-09
         let a_tyre = a_tyre(&self.cycle.parameters);
         let shows = |list: Shown<'_>| {
             let bend = 0.5 * list.1.age * (list.1.age - origin.age).abs();

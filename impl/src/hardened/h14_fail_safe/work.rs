@@ -22,6 +22,7 @@ impl Work {
 
     #[inline]
     pub(crate) fn add(&self, steps: u64) {
+        // H-14.51
         self.taken.set(self.taken.get().saturating_add(steps));
     }
 
