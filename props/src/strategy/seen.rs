@@ -73,9 +73,10 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         10 => {
             // Two lists have it, of which one is about as young or old as may be.
             scene.known = [true, false, true];
-            match draw.below(3) {
-                0 => (scene.missed, scene.ages[0]) = (2, draw.near_ns(200_000_000)),
-                _ => (scene.missed, scene.ages[2]) = (0, draw.near_ns(1_000_000_000)),
+            if draw.below(3) == 0 {
+                (scene.missed, scene.ages[0]) = (2, draw.near_ns(200_000_000));
+            } else {
+                (scene.missed, scene.ages[2]) = (0, draw.near_ns(1_000_000_000));
             }
         }
         // The thing, which is explained, may stand where something was farther off, and come from there.
