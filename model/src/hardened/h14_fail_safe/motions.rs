@@ -100,7 +100,7 @@ fn of_track(scene: &Scene, list: &Tracks, track: &Track) -> Motion {
 fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     let lists = usable(scene);
     let confirmed = confirmed(scene);
-    let moving = pairs(scene, list, &lists, &confirmed).into_iter().map(|pair| {
+    let moving = pairs(scene, list, &lists, &confirmed).map(|pair| {
         let d = &list.items[pair.detection];
         let w = velocity(d, &pair.list.items[pair.item], &pair.list.dt);
         let named = Named {
@@ -127,16 +127,17 @@ fn is_explained(confirmed: &[(&Track, Seen)], d: usize) -> bool {
 
 /// The detections and items that are examined as moving.
 pub fn pairs<'a>(
-    scene: &Scene,
-    list: &Detections,
+    scene: &'a Scene,
+    list: &'a Detections,
     lists: &'a [Usable<'a>],
-    confirmed: &[(&Track, Seen)],
-) -> Vec<Pair<'a>> {
-    let of_tracks =
-        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, lists, list, track, seen));
+    confirmed: &'a [(&Track, Seen)],
+) -> impl Iterator<Item = Pair<'a>> {
+    let of_tracks = confirmed
+        .iter()
+        .flat_map(move |(track, seen)| of_confirmed(scene, lists, list, track, seen));
     let of_all = (0..list.items.len())
-        .flat_map(|d| of_detection(scene, lists, list, d, is_explained(confirmed, d)));
-    of_tracks.chain(of_all).collect()
+        .flat_map(move |d| of_detection(scene, lists, list, d, is_explained(confirmed, d)));
+    of_tracks.chain(of_all)
 }
 
 /// An item of a list is taken of a detection d: where d stood, one at distance <= 0.3 m, or one from which d moved

@@ -183,10 +183,10 @@ fn given_hidden() {
 fn is_examined(scene: &Scene, [detection, item]: [usize; 2]) -> bool {
     let Some(list) = &scene.detections else { return false };
     let lists = usable(scene);
-    let examined = pairs(scene, list, &lists, &confirmed(scene));
+    let confirmed = confirmed(scene);
     let is_it =
         |it: &Pair<'_>| (it.detection, it.item, it.list.age_ns) == (detection, item, 500_000_000);
-    examined.iter().any(is_it)
+    pairs(scene, list, &lists, &confirmed).any(|it| is_it(&it))
 }
 
 /// A track anywhere, not longer than 1 m.
