@@ -160,17 +160,17 @@ fn seen_to_come(by_each: bool) -> Formula {
     if by_each {
         given_near(&scene, &limit, "t", 8);
     } else {
-        given_hidden();
+        given_hidden([5, 0]);
     }
     given_not_stood("b", &[("s", 3), ("t", 8)]);
     Formula::from(is_examined(&scene, [0, 1]))
 }
 
-/// Assumes that d came from b, and that a track that stands at d has a and s for its origins: with all this given a
+/// Assumes where b is, and that a track that stands at d has a and s for its origins: with all this given a
 /// counterexample has real roots.
-fn given_hidden() {
+fn given_hidden(b: [i128; 2]) {
     for (name, [x, y]) in
-        [("d", [0, 0]), ("s", [3, 0]), ("a", [0, 1]), ("b", [5, 0]), ("p", [0, 0]), ("v", [0, 0])]
+        [("d", [0, 0]), ("s", [3, 0]), ("a", [0, 1]), ("b", b), ("p", [0, 0]), ("v", [0, 0])]
     {
         given(same(&place(name), &Vector { x: Real::from_integer(x), y: Real::from_integer(y) }));
     }
@@ -206,6 +206,9 @@ fn says() -> Track {
 
 fn of_track(all: usize) -> Formula {
     let scene = scene(vec![says()], None);
+    if all == 1 {
+        given_hidden([0, 30]);
+    }
     let confirmed = confirmed(&scene);
     let Some((_, seen)) = confirmed.first() else { return Formula::Known(true) };
     // Two lists: a backed track has its own origin in both.
