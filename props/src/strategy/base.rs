@@ -208,6 +208,11 @@ pub fn a_tyre(parameters: &Parameters) -> f64 {
     parameters.a_b.max(11.5)
 }
 
+/// How far tyres move an object from its mean motion over dt at the age of a list, both s (SEEN-16, SEEN-17), m.
+pub fn bend(parameters: &Parameters, dt: f64, age: f64) -> f64 {
+    a_tyre(parameters) * (0.5 * age * (age - dt).abs())
+}
+
 /// `s_stop` of a trajectory that starts at the CAV, rounded, m.
 pub fn s_stop(cycle: &Cycle) -> f64 {
     let (p, v) = (&cycle.parameters, cycle.ego.speed);

@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track};
 
-use super::base::{a_tyre, seconds};
+use super::base::{bend, seconds};
 use super::draw::Draw;
 
 /// Ages of the lists, ns, increasing: those of the keeper, fewer, or at the borders of being
@@ -91,9 +91,8 @@ pub fn of_moving(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx
         if Some(dt_ns) == reference || with_support {
             if Some(dt_ns) != reference {
                 // So far it moved evenly (SEEN-19), or is borne out.
-                let bend = 0.5 * dt * (dt - reference.map_or(dt, seconds)).abs();
-                let borne =
-                    cycle.parameters.theta_track_max.max(0.3) + a_tyre(&cycle.parameters) * bend;
+                let p = &cycle.parameters;
+                let borne = p.theta_track_max.max(0.3) + bend(p, reference.map_or(dt, seconds), dt);
                 let limit = draw.pick(&[borne, 0.3]);
                 let error = draw.near(limit);
                 let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);

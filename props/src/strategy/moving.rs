@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{Frame, a_tyre, seconds};
+use super::base::{Frame, bend, seconds};
 use super::draw::Draw;
 use super::history;
 
@@ -109,8 +109,7 @@ fn shown(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let by_age = |a: &f64, b: &f64| off_half_a_second(a).total_cmp(&off_half_a_second(b));
     let Some(dt) = dts.iter().copied().min_by(by_age) else { return };
     let k = draw.below(dts.len());
-    let bend = 0.5 * dts[k] * (dts[k] - dt).abs();
-    let error = draw.near(0.3 + a_tyre(&cycle.parameters) * bend);
+    let error = draw.near(0.3 + bend(&cycle.parameters, dt, dts[k]));
     let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);
     let items = &mut cycle.detection_history[k].items;
     if draw.one_in(4) && !items.is_empty() {

@@ -5,7 +5,7 @@ use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{self, Frame, a_tyre, seconds};
+use super::base::{self, Frame, bend, seconds};
 use super::draw::Draw;
 use super::obstacle;
 use super::track_validation::{detection, track};
@@ -124,8 +124,8 @@ fn slanted(draw: &mut Draw<'_>, scene: &mut Scene, theta_velocity: f64) {
 
 /// That list shows it all the same, as far from an even motion as tyres may have bent it, or just farther.
 fn shown(draw: &mut Draw<'_>, scene: &mut Scene, p: &Parameters) {
-    let [dt, of] = [scene.ages[scene.missed], scene.ages[1]].map(seconds);
-    let off = draw.near(0.3 + a_tyre(p) * dt * (dt - of).abs() / 2.0);
+    let [age, dt] = [scene.ages[scene.missed], scene.ages[1]].map(seconds);
+    let off = draw.near(0.3 + bend(p, dt, age));
     let (x, y) = back(scene.at, scene.true_velocity, scene.ages[scene.missed]);
     scene.items[scene.missed].push(draw.pick(&[(x + off, y), (x - off, y), (x, y - off)]));
 }

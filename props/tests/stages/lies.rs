@@ -10,7 +10,7 @@ use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track
 use mufasa_model::input::scene::Scene;
 use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration::AllRemote;
-use mufasa_props::differential::runner;
+use mufasa_props::differential::{cases, runner};
 use mufasa_props::strategy::base::{self, Frame};
 use mufasa_props::strategy::draw::{Draw, tape};
 use proptest::strategy::Strategy;
@@ -123,12 +123,12 @@ fn judged(cycle: &Cycle, objects: &[Object]) -> (bool, Option<usize>) {
 /// In how many cases a past was taken, and in how many some motion was hidden. `stop`: at the first such one.
 fn search(missed: bool, stop: bool) -> [u32; 2] {
     let counts = RefCell::new([0; 2]);
-    let cases = tape().prop_map(|tape| {
+    let scenes = tape().prop_map(|tape| {
         let mut draw = Draw::new(&tape);
         let objects = objects(&mut draw);
         (cycle(&mut draw, &objects, missed), objects)
     });
-    let result = runner().run(&cases, |(cycle, objects)| {
+    let result = runner().run(&scenes, |(cycle, objects)| {
         let (is_taken, hidden) = judged(&cycle, &objects);
         let mut counts = counts.borrow_mut();
         counts[0] += u32::from(is_taken);
@@ -148,7 +148,7 @@ fn search(missed: bool, stop: bool) -> [u32; 2] {
 fn no_lies_hide_a_motion_that_every_list_shows() {
     let [taken, _] = search(false, true);
     println!("the past of another was taken in {taken} cases, none hid a motion");
-    assert!(taken > 0, "{taken}");
+    assert!(taken > cases() / 50, "{taken}");
 }
 
 #[test]

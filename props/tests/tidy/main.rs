@@ -214,7 +214,7 @@ fn the_readme_has_the_times_of_the_page_of_speed() {
     let readme = tree.0["README.md"].split_whitespace().collect::<Vec<_>>().join(" ");
     for words in [
         format!("takes {us:.1} us with 30 tracks and {most_us:.0} us with 1000:"),
-        format!("{ratio:.1} and {most_ratio:.0} times less than the best libraries,"),
+        format!("{ratio:.1} and {most_ratio:.1} times less than the best libraries,"),
         format!("Hardened: {least:.0} to {most:.0} times as many instructions"),
     ] {
         assert!(readme.contains(&words), "{words}");
