@@ -37,11 +37,11 @@ impl Explained {
         found
     }
 
-    /// Whether a confirmed track explains a detection.
+    /// The confirmed track that explains a detection.
     #[inline]
-    pub(crate) fn is_explained(&self, detection: usize, rows: &[Row], columns: &[Column]) -> bool {
-        let by = columns.get(detection).map(|column| usize::from(column.explained_by));
-        let row = by.filter(|&track| track < self.tracks).and_then(|track| rows.get(track));
-        row.and_then(Row::confirmed_by).is_some_and(|item| usize::from(item) == detection)
+    pub(crate) fn by(&self, detection: usize, rows: &[Row], columns: &[Column]) -> Option<usize> {
+        let track = usize::from(columns.get(detection)?.explained_by);
+        let item = rows.get(track).filter(|_| track < self.tracks)?.confirmed_by()?;
+        (usize::from(item) == detection).then_some(track)
     }
 }

@@ -38,22 +38,29 @@ pub(crate) struct Past<'c> {
     pub(crate) list: usize,
     pub(crate) usable: UsableList<'c>,
     /// How far from the past an item may be, m.
-    pub(crate) reach: f64,
+    reach: f64,
     /// From the stamp of the tracks to that of the list, s.
     since: f64,
 }
 
 impl Past<'_> {
     /// From the position of a track to its past (SEEN-05), m.
-    pub(crate) fn moved(&self, track: &Track) -> (f64, f64) {
-        (track.vx * self.since, track.vy * self.since)
+    fn moved(&self, track: &Track) -> [f64; 2] {
+        [track.vx * self.since, track.vy * self.since]
     }
 
     /// A box that holds what is as near to the past as an item may be.
     pub(crate) fn around(&self, track: &Track) -> [[f64; 2]; 2] {
-        let (dx, dy) = self.moved(track);
+        let [dx, dy] = self.moved(track);
         let around = |at: f64| [at - self.reach - MARGIN, at + self.reach + MARGIN];
         [around(track.x + dx), around(track.y + dy)]
+    }
+
+    /// Whether an item is as near to the past as one may be (H-14.18).
+    pub(crate) fn has(&self, track: &Track, item: [f64; 2]) -> bool {
+        let [dx, dy] = self.moved(track);
+        let (x, y) = ((track.x - item[0]) + dx, (track.y - item[1]) + dy);
+        x * x + y * y <= self.reach * self.reach
     }
 }
 
@@ -107,8 +114,8 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             // Of a few squares for what comes from anywhere, at most four for what supports it, and of a
             // few things in a square.
             let parameters = &self.cycle.parameters;
-            let support =
-                4.0 * parameters.theta_track_max + 2.0 * LONGEST_BEND * a_tyre(parameters);
+            let within = larger(parameters.theta_track_max, STOOD);
+            let support = 4.0 * within + 2.0 * LONGEST_BEND * a_tyre(parameters);
             let side = larger(support, 0.25 * parameters.v_object);
             let usable = self.history.usable.iter().zip(0..);
             for (squares, (list, number)) in self.squares.iter_mut().zip(usable) {

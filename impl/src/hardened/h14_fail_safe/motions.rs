@@ -79,11 +79,12 @@ impl Motions<'_, '_, '_> {
         }
         for (detection, now) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
-            let is_explained =
-                self.explained.is_explained(detection, scratch.rows, scratch.columns);
-            self.anywhere((detection, now), &motion, is_explained, scratch);
+            let by = self.explained.by(detection, scratch.rows, scratch.columns);
+            let by = by.and_then(|by| Some((tracks?.items.get(by)?, scratch.rows.get(by)?)));
+            let by = by.map(|(track, row)| (track, self.lists.past_of(row)));
+            self.anywhere((detection, now), &motion, by, scratch);
             // H-14.21; A-03
-            if !is_explained {
+            if by.is_none() {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
             }
@@ -137,19 +138,16 @@ impl Motions<'_, '_, '_> {
         scratch: &mut Scratch<'_>,
     ) {
         let past = scratch.rows.get(order).and_then(|row| self.lists.past_of(row));
-        let Some(Past { list, usable, reach, .. }) = past else { return };
+        let Some(past) = past else { return };
+        let Past { list, usable, .. } = past;
         let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
-        let Some((around, (dx, dy))) = past.map(|it| (it.around(track), it.moved(track))) else {
-            return;
-        };
         let (scratch, age, mut has_stood) = (&*scratch, usable.age, None);
-        squares.for_each_in(scratch.columns, around, |item, before| {
+        squares.for_each_in(scratch.columns, past.around(track), |item, before| {
             if self.lists.work.is_too_much() {
                 return;
             }
-            let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = motion.coming_from(before, usable.age_ns, 1.0 / age);
-            if x * x + y * y <= reach * reach {
+            if past.has(track, before) {
                 self.lists.work.add(PAIR);
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
@@ -163,12 +161,13 @@ impl Motions<'_, '_, '_> {
 
     /// A detection from every item of the reference list (H-14.19) where it may have stood, and one that no
     /// track explains from every item that some other list supports, an explained one from every item that
-    /// all others do (H-14.20), whatever has the item (SEEN-14).
+    /// all others do (H-14.20), whatever has the item (SEEN-14). `by`: the track that explains it, and its
+    /// past, from which it was taken to come already.
     fn anywhere(
         &mut self,
         (detection, now): (usize, &Detection),
         motion: &Motion,
-        is_explained: bool,
+        by: Option<(&Track, Option<Past<'_>>)>,
         scratch: &mut Scratch<'_>,
     ) {
         let Some(reference) = self.history.reference() else { return };
@@ -182,12 +181,18 @@ impl Motions<'_, '_, '_> {
         }
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let (scratch, seen, mut has_stood) = (&*scratch, self.meeting.seen_from(motion), None);
+        let is_explained = by.is_some();
+        let taken =
+            by.and_then(|(track, past)| past.filter(|it| it.list == reference).zip(Some(track)));
         squares.for_each_in(scratch.columns, area, |item, before| {
             if self.lists.work.is_too_much() {
                 return;
             }
             let (x, y) = (now.x - before[0], now.y - before[1]);
             if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
+                return;
+            }
+            if taken.is_some_and(|(past, track)| past.has(track, before)) {
                 return;
             }
             // What an index shows besides is no more than each item once.
