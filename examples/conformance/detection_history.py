@@ -167,17 +167,20 @@ class Seen:
 
     def motions(self):
         """The motions of detections that H-14 examines: each with where it was how long ago, in ns."""
+        taken = set()
         for i in self.sure:
-            one, detection = self.seen_as(i), self.detections[self.detection[i]]
-            for item in self.pasts(detection, one):
+            one, d = self.seen_as(i), self.detection[i]
+            for item in self.pasts(self.detections[d], one):
                 if self.past_gap(item, self.tracks[i], one) <= self.reach(one) + EPS:
-                    yield detection, item, one["age_ns"]
+                    taken.add((d, id(item)))
+                    yield self.detections[d], item, one["age_ns"]
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
         if self.reference is not None:
             for d, detection in enumerate(self.detections):
                 came = self.was_seen_to_come_from if d in self.explained else self.may_come_from
                 for item in self.pasts(detection, self.reference):
-                    if self.may_stand(detection, item) or came(detection, item, self.reference):
+                    if (d, id(item)) not in taken and (
+                            self.may_stand(detection, item) or came(detection, item, self.reference)):
                         yield detection, item, self.reference["age_ns"]
         for d in unexplained:
             yield self.detections[d], self.detections[d], 1

@@ -111,7 +111,7 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
         };
         Motion::new(scene, d, list.stamp_ns, w, named).over(scene, &pair.list.dt)
     });
-    let unexplained = (0..list.items.len()).filter(|d| !is_explained(&confirmed, *d));
+    let unexplained = (0..list.items.len()).filter(|d| explained_by(&confirmed, *d).is_none());
     let standing = unexplained.map(|d| {
         let w = Vector { x: Real::zero(), y: Real::zero() };
         let named = Named { detection: Some(d), ..Named::default() };
@@ -120,9 +120,9 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
-/// It is the detection of a confirmed track.
-fn is_explained(confirmed: &[(&Track, Seen)], d: usize) -> bool {
-    confirmed.iter().any(|(_, seen)| seen.detection == Some(d))
+/// The confirmed track whose detection it is.
+fn explained_by<'a>(confirmed: &'a [(&Track, Seen)], d: usize) -> Option<&'a (&'a Track, Seen)> {
+    confirmed.iter().find(|(_, seen)| seen.detection == Some(d))
 }
 
 /// The detections and items that are examined as moving.
@@ -136,7 +136,7 @@ pub fn pairs<'a>(
         .iter()
         .flat_map(move |(track, seen)| of_confirmed(scene, lists, list, track, seen));
     let of_all = (0..list.items.len())
-        .flat_map(move |d| of_detection(scene, lists, list, d, is_explained(confirmed, d)));
+        .flat_map(move |d| of_detection(scene, lists, list, d, explained_by(confirmed, d)));
     of_tracks.chain(of_all)
 }
 
@@ -191,22 +191,25 @@ fn of_confirmed<'a>(
 
 /// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
 /// stand), or that d may come from where it is unexplained, or was seen to come from where it is explained; where d
-/// stood, of these those that are taken.
+/// stood, of these those that are taken. Not those of the track that explains d, which are pairs with d already.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
     detections: &Detections,
     detection: usize,
-    is_explained: bool,
+    by: Option<&(&Track, Seen)>,
 ) -> Vec<Pair<'a>> {
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
-    let comes_from = if is_explained { was_seen_to_come_from } else { may_come_from };
+    let comes_from = if by.is_some() { was_seen_to_come_from } else { may_come_from };
+    let of_track = by.and_then(|(track, seen)| origins(scene, lists, track, seen));
+    let of_track = of_track.filter(|(of, _)| *of == k).map_or_else(Vec::new, |(_, items)| items);
     let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || comes_from(scene, lists, d, [k, *item])
     };
     let is_pair = |item: &usize| is_taken(scene, lists, d, [k, *item]) && is_candidate(item);
-    (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
+    let others = (0..list.items.len()).filter(|item| !of_track.contains(item));
+    others.filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }
