@@ -191,7 +191,8 @@ fn of_confirmed<'a>(
 
 /// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
 /// stand), or that d may come from where it is unexplained, or was seen to come from where it is explained; where d
-/// stood, of these those that are taken. Not those of the track that explains d, which are pairs with d already.
+/// stood, of these those that are taken. Not those near the past of the track that explains d: of them each that is
+/// taken is a pair with d already.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
