@@ -179,8 +179,9 @@ class Seen:
             for d, detection in enumerate(self.detections):
                 came = self.was_seen_to_come_from if d in self.explained else self.may_come_from
                 for item in self.pasts(detection, self.reference):
-                    if (d, id(item)) not in taken and (
-                            self.may_stand(detection, item) or came(detection, item, self.reference)):
+                    if (d, id(item)) in taken:
+                        continue
+                    if self.may_stand(detection, item) or came(detection, item, self.reference):
                         yield detection, item, self.reference["age_ns"]
         for d in unexplained:
             yield self.detections[d], self.detections[d], 1
