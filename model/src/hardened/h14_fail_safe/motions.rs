@@ -167,11 +167,14 @@ pub fn origins(
     seen: &Seen,
 ) -> Option<(usize, Vec<usize>)> {
     let k = list_of(lists, seen)?;
-    let list = &lists[k];
+    let is_near = |item: &usize| is_near_past(scene, &lists[k], track, seen, *item);
+    Some((k, (0..lists[k].items.len()).filter(is_near).collect()))
+}
+
+/// An item of a list is at distance <= theta_track_max + theta_velocity dt from the past of a track.
+fn is_near_past(scene: &Scene, list: &Usable, track: &Track, seen: &Seen, item: usize) -> bool {
     let past = past(&seen.place, &track.velocity, &list.dt);
-    let limit = origin_limit(scene, &list.dt);
-    let is_near = |item: &usize| is_within(scene, &past, &list.items[*item], &limit);
-    Some((k, (0..list.items.len()).filter(is_near).collect()))
+    is_within(scene, &past, &list.items[item], &origin_limit(scene, &list.dt))
 }
 
 /// The detection of a confirmed track and each of these items; where d stood, each of them that is taken.
@@ -204,13 +207,16 @@ fn of_detection<'a>(
     let d = &detections.items[detection];
     let theta_track_max = &scene.parameters.theta_track_max;
     let comes_from = if by.is_some() { was_seen_to_come_from } else { may_come_from };
-    let of_track = by.and_then(|(track, seen)| origins(scene, lists, track, seen));
-    let of_track = of_track.filter(|(of, _)| *of == k).map_or_else(Vec::new, |(_, items)| items);
     let is_candidate = |item: &usize| {
         is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
             || comes_from(scene, lists, d, [k, *item])
     };
-    let is_pair = |item: &usize| is_taken(scene, lists, d, [k, *item]) && is_candidate(item);
-    let others = (0..list.items.len()).filter(|item| !of_track.contains(item));
-    others.filter(is_pair).map(|item| Pair { detection, item, list }).collect()
+    let of_list = by.filter(|(_, seen)| list_of(lists, seen) == Some(k));
+    let is_of_track = |item: &usize| {
+        of_list.is_some_and(|(track, seen)| is_near_past(scene, list, track, seen, *item))
+    };
+    let is_pair = |item: &usize| {
+        is_taken(scene, lists, d, [k, *item]) && is_candidate(item) && !is_of_track(item)
+    };
+    (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

@@ -143,8 +143,9 @@ fn an_explained_detection_is_examined_as_every_list_shows() {
     assert_eq!(with(|c| c.parameters.v_object = 8f64.next_down()), slower);
 }
 
-/// Where the detection was seen to come from, too, it is examined once. So it is where it may stand, which is not near
-/// the past. Items of another list are others: where two tracks have one past of 500 ms ago, theirs is of 250 ms ago.
+/// With the item that is near the past of its track, and that it was seen to come from, too, a detection is examined
+/// once. With an item that is not near that past it still is. Items of another list are others: two tracks that have one
+/// past of 500 ms ago have the list of 250 ms ago.
 /// H-14.19.
 #[test]
 fn a_pair_is_examined_once() {
