@@ -20,8 +20,9 @@ fn items(words: &[u64], is_plain: bool, size: usize, direction: usize) -> Vec<u6
     words
 }
 
-libfuzzer_sys::fuzz_target!(|input: (u8, u16, [[u8; 2]; 7], Vec<u64>)| {
-    let (kind, given, places, mut words) = input;
+libfuzzer_sys::fuzz_target!(|input: (u8, u16, [[u8; 2]; 7], &[u8])| {
+    let (kind, given, places, bytes) = input;
+    let mut words: Vec<u64> = bytes.as_chunks().0.iter().copied().map(u64::from_le_bytes).collect();
     words.resize(words.len().max(size_of::<MufasaCycle>()), 0);
     let is_plain = kind & 1 == 0;
     if is_plain {
