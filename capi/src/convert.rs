@@ -21,6 +21,9 @@ use crate::cycle::{
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
 
+#[cfg(test)]
+mod tests;
+
 /// The sizes of `spec/4-arithmetic.md#domain` and one.
 pub(crate) const TRACKS: usize = 1025;
 pub(crate) const DETECTIONS: usize = 2049;

@@ -4,15 +4,13 @@
 //! `MufasaMonitorSettings` has neither `supervise_local` nor `stall`: `brake` and the time at which PLAN was given back
 //! are not shown in C. Own tracks beyond the settings, refused even while MOT is remote (MON-65), are left out and counted.
 
+mod records;
+
 use std::collections::BTreeMap;
 use std::mem::MaybeUninit;
 use std::ptr::{from_ref, null, null_mut};
 
-use mufasa_capi::cycle::{
-    MufasaCrossSection, MufasaDetection, MufasaDetectionList, MufasaEgo, MufasaGrid, MufasaLead,
-    MufasaProfile, MufasaRoute, MufasaTrack, MufasaTrackList, MufasaTrajectory,
-    MufasaTrajectoryPoint,
-};
+use mufasa_capi::cycle::{MufasaProfile, MufasaRoute};
 use mufasa_capi::event::{
     MufasaAction, MufasaActionType, MufasaEvent, MufasaEventType as Kind, MufasaGroup,
 };
@@ -26,10 +24,8 @@ use mufasa_capi::monitor::{
 use mufasa_capi::report::MufasaFailedStage;
 use mufasa_capi::requester::{MufasaGroupState, MufasaGroupStateKind, MufasaRequesterState};
 use mufasa_capi::status::MufasaStatus;
-use mufasa_capi::time::{MufasaGap, MufasaTime};
-use mufasa_model::input::cycle::{
-    CrossSection, Detection, Grid, Lead, Route, Track, TrackList, Trajectory, TrajectoryPoint,
-};
+use mufasa_capi::time::MufasaTime;
+use mufasa_model::input::cycle::{Route, TrackList, Trajectory};
 use mufasa_model::input::profile::Profile;
 use mufasa_model::monitor::Monitor;
 use mufasa_model::monitor::messages::{Answer, Decision, Dropped, Event, EventKind, Measured};
@@ -38,6 +34,8 @@ use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups};
 use mufasa_model::report::{FailedStage, Reading, Stage};
 use mufasa_props::bridge;
 use mufasa_props::strategy::monitor::{Script, route};
+
+use records::{detection, detection_list, path, point, time, track, track_list};
 
 /// Sequences of each profile.
 const SEQUENCES: u64 = 60;
@@ -71,33 +69,6 @@ struct InC {
     monitor: *mut MufasaMonitor,
 }
 
-fn time(ns: i64) -> MufasaTime {
-    MufasaTime { ns }
-}
-
-/// A struct of C with the same fields.
-macro_rules! same {
-    ($from:expr => $to:ident { $($field:ident),* } $($rest:tt)*) => {
-        $to { $($field: $from.$field,)* $($rest)* }
-    };
-}
-
-fn track(it: &Track) -> MufasaTrack {
-    same!(it => MufasaTrack { id, x, y, cos, sin, vx, vy, length, width })
-}
-
-fn point(it: &TrajectoryPoint) -> MufasaTrajectoryPoint {
-    same!(it => MufasaTrajectoryPoint { x, y, cos, sin } t: time(it.t_ns))
-}
-
-fn track_list(stamp_ns: i64, items: &[MufasaTrack]) -> MufasaTrackList {
-    MufasaTrackList { stamp: time(stamp_ns), items: items.as_ptr(), items_len: items.len() }
-}
-
-fn path(stamp_ns: i64, points: &[MufasaTrajectoryPoint]) -> MufasaTrajectory {
-    MufasaTrajectory { stamp: time(stamp_ns), points: points.as_ptr(), points_len: points.len() }
-}
-
 impl InC {
     fn new(settings: &Settings, route: &Route) -> Self {
         let count = |places: i64| usize::try_from(places).expect("places");
@@ -125,8 +96,7 @@ impl InC {
         let status =
             unsafe { mufasa_monitor_init(&raw const given, place, bytes, &raw mut monitor) };
         assert_eq!(status, MufasaStatus::Ok);
-        let section = |it: &CrossSection| same!(it => MufasaCrossSection { x, y, left, right });
-        let sections: Vec<_> = route.cross_sections.iter().map(section).collect();
+        let sections = records::cross_sections(route);
         let (cross_sections, cross_sections_len) = (sections.as_ptr(), sections.len());
         let closed = u8::from(route.closed);
         let route = MufasaRoute { closed, cross_sections, cross_sections_len };
@@ -192,30 +162,12 @@ impl InC {
         let tracks = tracks.as_ref().map(|it: &TrackList| track_list(it.stamp_ns, &items));
         let points: Vec<_> = trajectory.iter().flat_map(|it| &it.points).map(point).collect();
         let trajectory = trajectory.as_ref().map(|it: &Trajectory| path(it.stamp_ns, &points));
-        let detection =
-            |it: &Detection| same!(it => MufasaDetection { x, y, cos, sin, length, width });
         let seen: Vec<_> = detections.iter().flat_map(|it| &it.items).map(detection).collect();
-        let detections = detections.as_ref().map(|it| MufasaDetectionList {
-            stamp: time(it.stamp_ns),
-            items: seen.as_ptr(),
-            items_len: seen.len(),
-        });
-        let lead = lead.as_ref().map(|Lead { stamp_ns, gap, speed }| MufasaLead {
-            stamp: time(*stamp_ns),
-            gap: MufasaGap { between_bumpers: *gap },
-            speed: *speed,
-        });
-        let grid = grid.as_ref().map(|it: &Grid| {
-            let unknown = it.unknown.as_ref();
-            same!(it => MufasaGrid { x, y, cos, sin, resolution, width, height }
-                stamp: time(it.stamp_ns),
-                occupied: it.occupied.as_ptr(),
-                occupied_len: it.occupied.len(),
-                unknown: unknown.map_or(null(), Vec::as_ptr),
-                unknown_len: unknown.map_or(0, Vec::len))
-        });
+        let detections = detections.as_ref().map(|it| detection_list(it.stamp_ns, &seen));
+        let lead = lead.as_ref().map(records::lead);
+        let grid = grid.as_ref().map(records::grid);
         let inputs = MufasaMonitorInputs {
-            ego: same!(ego => MufasaEgo { x, y, cos, sin, speed, length, width, center_offset }),
+            ego: records::ego(ego),
             detections: detections.as_ref().map_or(null(), from_ref),
             lead: lead.as_ref().map_or(null(), from_ref),
             grid: grid.as_ref().map_or(null(), from_ref),

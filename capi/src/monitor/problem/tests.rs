@@ -7,13 +7,21 @@ use crate::monitor::settings::mufasa_monitor_settings_default;
 
 /// The field, and the value, least and most, that are told of settings with one change.
 fn told(change: impl FnOnce(&mut MufasaMonitorSettings)) -> (String, [f64; 3]) {
+    let (field, numbers, _) = all(change);
+    (field, numbers)
+}
+
+/// With the message.
+fn all(change: impl FnOnce(&mut MufasaMonitorSettings)) -> (String, [f64; 3], String) {
     let mut settings = mufasa_monitor_settings_default(50_000_000);
     settings.requester.dt_max_ns = 120_000_000;
     change(&mut settings);
     let (_, told) = checked(&settings);
-    let bytes = told.field.map(|byte| byte.to_ne_bytes()[0]);
-    let field = CStr::from_bytes_until_nul(&bytes).unwrap().to_str().unwrap();
-    (field.to_owned(), [told.value, told.least, told.most])
+    let [field, message] = [told.field, told.message].map(|it| {
+        let bytes = it.map(|byte| byte.to_ne_bytes()[0]);
+        CStr::from_bytes_until_nul(&bytes).unwrap().to_str().unwrap().to_owned()
+    });
+    (field, [told.value, told.least, told.most], message)
 }
 
 #[test]
@@ -36,4 +44,24 @@ fn each_problem_names_its_field_and_its_numbers() {
     assert!(most < 2048.0);
     let (field, [value, ..]) = told(|it| it.stages.max_age_ns = 1_000_000);
     assert_eq!((field.as_str(), value), ("parameters.max_age_ns", 1e6));
+}
+
+/// The remedy differs though the field does not.
+#[test]
+fn a_time_is_told_the_unit_that_is_missing() {
+    let (field, [value, ..], message) = all(|it| it.requester.t_wait_ns = 10_000);
+    assert_eq!((field.as_str(), value), ("requester.t_wait_ns", 1e4));
+    assert!(message.starts_with("above 0 and below 1 s;"), "{message}");
+    let (field, [value, ..], message) = all(|it| it.requester.request_timeout_ns = 500);
+    assert_eq!((field.as_str(), value), ("requester.request_timeout_ns", 500.0));
+    assert!(message.starts_with("above 0 and below 1 ms;"), "{message}");
+    let (field, _, message) = all(|it| it.period_ns = 500);
+    assert_eq!(field, "period_ns");
+    assert!(message.starts_with("above 0 and below 1 ms;"), "{message}");
+    let (field, [value, least, most], message) = all(|it| it.stages.tau = 0.06);
+    assert_eq!((field.as_str(), value), ("stages.tau", 0.06));
+    assert!(0.0 < least && least < most && message.contains("(A-07)"), "{message}");
+    let (field, [value, least, most], message) = all(|it| it.stages.a_b = 80.0);
+    assert_eq!((field.as_str(), value), ("stages.a_b", 80.0));
+    assert!(0.0 < least && most < 80.0 && message.contains("another unit"), "{message}");
 }
