@@ -22,7 +22,7 @@ fn the_largest_cycle_needs_what_is_said_of_every_cycle() {
         profile: 0,
         configuration: 0,
         now: stamp,
-        parameters: MufasaParameters { miss_budget: i64::MAX, ..mufasa_parameters_default() },
+        parameters: MufasaParameters { miss_budget: 1025, ..mufasa_parameters_default() },
         ego: MufasaEgo {
             x: 0.0,
             y: 0.0,
