@@ -8,6 +8,7 @@ mod closes;
 mod counts;
 mod decisions;
 mod evidence;
+mod failure_modes;
 #[path = "../tree/hash.rs"]
 mod hash;
 mod intervals;
@@ -260,6 +261,14 @@ fn findings_are_counted_as_their_tables_have_them() {
 #[test]
 fn evidence_that_is_named_exists() {
     judge(&evidence::missing(&Tree::here()), &[]);
+}
+
+/// What nobody thought of fails first.
+#[test]
+fn each_field_of_a_record_or_message_has_a_row_of_failure_modes() {
+    let schemas = mufasa_records::schema::all();
+    let record = schemas.iter().find(|it| it.0 == "monitor").expect("a schema");
+    judge(&failure_modes::missing(&Tree::here(), &record.1), &[]);
 }
 
 /// An assumption that no code relies on is none, and one that only code knows is shown by nobody.
