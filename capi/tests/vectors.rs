@@ -15,7 +15,7 @@ use mufasa_capi::check::{mufasa_check, mufasa_scratch_bytes};
 use mufasa_capi::cycle::{MufasaConfiguration, MufasaCycle, MufasaProfile, MufasaRoute};
 use mufasa_capi::report::{MufasaOutcome, MufasaOutcomeKind, MufasaReport, MufasaRule};
 use mufasa_capi::status::MufasaStatus;
-use mufasa_model::input::cycle::Cycle;
+use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, Track, TrackList};
 use mufasa_model::input::profile::Profile;
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge;
@@ -229,6 +229,45 @@ fn cycles() -> Vec<(String, Box<Cycle>)> {
     found
 }
 
+/// What both say of a cycle.
+fn as_in_rust(id: &str, cycle: &Cycle) -> Told {
+    let report = bridge::with_impl(cycle, mufasa::cycle::check);
+    let in_c = checked(cycle);
+    assert_eq!(in_c, by_rust(&report), "{id}");
+    in_c
+}
+
+/// Lists are passed on up to one element more than the domain has.
+#[test]
+fn a_list_as_long_as_the_domain_allows_is_whole_and_a_longer_one_refused() {
+    let has_all = |it: &Cycle| {
+        it.grid.is_some()
+            && it.tracks.as_ref().is_some_and(|it| !it.items.is_empty())
+            && it.detections.as_ref().is_some_and(|it| !it.items.is_empty())
+    };
+    let (_, cycle) = cycles().into_iter().find(|it| has_all(&it.1)).expect("such a vector");
+    let grid = cycle.grid.clone().expect("a grid");
+    for (bytes, words) in [(1 << 21, ""), ((1 << 21) + 1, "grid.occupied")] {
+        let occupied = vec![0; bytes];
+        let grid = Grid { width: 4096, height: 4096, occupied, unknown: None, ..grid.clone() };
+        let told = as_in_rust("grid", &Cycle { grid: Some(grid), ..(*cycle).clone() });
+        assert_eq!(told.input.0, words);
+    }
+    let tracks = cycle.tracks.clone().expect("tracks");
+    let detections = cycle.detections.clone().expect("detections");
+    for (more, is_refused) in [(0, false), (1, true)] {
+        let items = (0..).map(|id| Track { id, ..tracks.items[0].clone() });
+        let items = items.take(1024 + more).collect();
+        let tracks = Some(TrackList { items, ..tracks });
+        let told = as_in_rust("tracks", &Cycle { tracks, ..(*cycle).clone() });
+        assert_eq!(told.input.0 == "tracks.items", is_refused, "{told:?}");
+        let items = vec![detections.items[0].clone(); 2048 + more];
+        let detections = Some(DetectionList { items, ..detections });
+        let told = as_in_rust("detections", &Cycle { detections, ..(*cycle).clone() });
+        assert_eq!(told.input.0 == "detections.items", is_refused, "{told:?}");
+    }
+}
+
 #[test]
 fn c_reports_on_each_vector_what_rust_reports() {
     let mut count = BTreeMap::<String, u32>::new();
@@ -236,9 +275,7 @@ fn c_reports_on_each_vector_what_rust_reports() {
         if ![Profile::PAPER, Profile::HARDENED].contains(&cycle.profile) {
             continue; // C has no part of a profile.
         }
-        let report = bridge::with_impl(&cycle, mufasa::cycle::check);
-        let (in_c, in_rust) = (checked(&cycle), by_rust(&report));
-        assert_eq!(in_c, in_rust, "{id}");
+        let in_c = as_in_rust(&id, &cycle);
         for stage in &in_c.stages {
             for word in [&stage.kind, &stage.reason, &stage.missing, &stage.rule] {
                 *count.entry(word.clone()).or_default() += 1;

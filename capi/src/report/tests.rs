@@ -39,6 +39,12 @@ fn messages_fit_and_end_with_a_zero() {
     }
 }
 
+#[test]
+fn a_text_that_is_too_long_is_cut_off_and_ends() {
+    let text = super::joined(["field.", &"x".repeat(200)]);
+    assert_eq!(text.map(|it| it != 0), core::array::from_fn(|at| at < MUFASA_TEXT_BYTES - 1));
+}
+
 /// A slip in the table would tell an integrator of another rule.
 #[test]
 fn what_c_is_told_has_the_name_of_rust() {
