@@ -6,9 +6,11 @@
 
 mod records;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
 use std::mem::MaybeUninit;
 use std::ptr::{from_ref, null, null_mut};
+use std::slice;
 
 use mufasa_capi::cycle::{MufasaProfile, MufasaRoute};
 use mufasa_capi::event::{
@@ -30,8 +32,9 @@ use mufasa_model::input::profile::Profile;
 use mufasa_model::monitor::Monitor;
 use mufasa_model::monitor::messages::{Answer, Decision, Dropped, Event, EventKind, Measured};
 use mufasa_model::monitor::settings::Settings;
-use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups};
+use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups, Requester};
 use mufasa_model::report::{FailedStage, Reading, Stage};
+use mufasa_model::services::configuration::Source;
 use mufasa_props::bridge;
 use mufasa_props::strategy::monitor::{Script, route};
 
@@ -54,19 +57,27 @@ struct Seen {
     decision: Option<Decided>,
 }
 
-/// `Err`: an error. Of tracks and trajectory the stamps.
+/// `Err`: an error. Of tracks and trajectory the stamps; what they hold was sent, as `InC` looks.
 #[derive(Debug, PartialEq)]
 struct Decided {
     failed: Result<MufasaFailedStage, ()>,
     tracks_ns: Option<i64>,
     trajectory_ns: Option<i64>,
     brake_by_ns: Option<i64>,
+    /// Bits as of `MufasaGroup`.
+    local_services: u32,
 }
 
 /// A monitor in memory of its own.
 struct InC {
     _memory: Vec<u64>,
     monitor: *mut MufasaMonitor,
+    /// Stamps and contents of what was given, as they are printed.
+    sent: BTreeSet<String>,
+}
+
+fn printed<T: Debug>(stamp: MufasaTime, items: &[T]) -> String {
+    format!("{} {items:?}", stamp.ns)
 }
 
 impl InC {
@@ -82,6 +93,8 @@ impl InC {
             requester: bridge::parameters_to_impl(&settings.requester).into(),
             sessions_before: settings.last_session,
             check_time_ns: i64::MAX,
+            // As many as those of the sequences have.
+            most_points: 2,
             meant: u32::MAX,
             most_tracks: count(settings.memory.tracks),
             most_detections: count(settings.memory.detections),
@@ -103,7 +116,7 @@ impl InC {
         // SAFETY: the monitor was just made; the route lives to the end of this function.
         let status = unsafe { mufasa_monitor_set_route(monitor, &raw const route) };
         assert_eq!(status, MufasaStatus::Ok);
-        Self { _memory: memory, monitor }
+        Self { _memory: memory, monitor, sent: BTreeSet::new() }
     }
 
     fn step(&mut self, event: &Event) -> Seen {
@@ -113,6 +126,7 @@ impl InC {
             EventKind::Tracks { station, session, generated_ns, tracks } => {
                 let items: Vec<_> = tracks.items.iter().map(track).collect();
                 let tracks = track_list(tracks.stamp_ns, &items);
+                self.sent.insert(printed(tracks.stamp, &items));
                 let (station, session, generated) = (*station, *session, time(*generated_ns));
                 let message = MufasaTrackMessage { station, session, generated, tracks };
                 // SAFETY: what is pointed to lives longer than the call, here and below.
@@ -121,6 +135,7 @@ impl InC {
             EventKind::Trajectory { station, session, generated_ns, trajectory } => {
                 let points: Vec<_> = trajectory.points.iter().map(point).collect();
                 let trajectory = path(trajectory.stamp_ns, &points);
+                self.sent.insert(printed(trajectory.stamp, &points));
                 let (station, session, generated) = (*station, *session, time(*generated_ns));
                 let message = MufasaTrajectoryMessage { station, session, generated, trajectory };
                 // SAFETY: as above.
@@ -162,6 +177,8 @@ impl InC {
         let tracks = tracks.as_ref().map(|it: &TrackList| track_list(it.stamp_ns, &items));
         let points: Vec<_> = trajectory.iter().flat_map(|it| &it.points).map(point).collect();
         let trajectory = trajectory.as_ref().map(|it: &Trajectory| path(it.stamp_ns, &points));
+        // What the own planner says comes out, too.
+        self.sent.extend(trajectory.iter().map(|it| printed(it.stamp, &points)));
         let seen: Vec<_> = detections.iter().flat_map(|it| &it.items).map(detection).collect();
         let detections = detections.as_ref().map(|it| detection_list(it.stamp_ns, &seen));
         let lead = lead.as_ref().map(records::lead);
@@ -187,6 +204,15 @@ impl InC {
         let tracks = unsafe { decision.tracks.as_ref() };
         // SAFETY: as above.
         let trajectory = unsafe { decision.trajectory.as_ref() };
+        // SAFETY: of a list that is there the items are, too.
+        let held = tracks.map(|it| unsafe { slice::from_raw_parts(it.items, it.items_len) });
+        let of_tracks = tracks.zip(held).map(|(it, items)| printed(it.stamp, items));
+        // SAFETY: as above.
+        let held = trajectory.map(|it| unsafe { slice::from_raw_parts(it.points, it.points_len) });
+        let of_trajectory = trajectory.zip(held).map(|(it, points)| printed(it.stamp, points));
+        for it in of_tracks.into_iter().chain(of_trajectory) {
+            assert!(self.sent.contains(&it), "{it}");
+        }
         let decided = Decided {
             failed: match decision.report.failed_stage {
                 MufasaFailedStage::Error => Err(()),
@@ -195,6 +221,7 @@ impl InC {
             tracks_ns: tracks.map(|it| it.stamp.ns),
             trajectory_ns: trajectory.map(|it| it.stamp.ns),
             brake_by_ns: Some(decision.brake_by.ns).filter(|it| *it != i64::MAX),
+            local_services: decision.local_services,
         };
         (decided, decision.actions)
     }
@@ -267,7 +294,7 @@ fn taken(actions: &MufasaActions) -> Vec<Action> {
 }
 
 /// What the model says of that.
-fn expected(answer: Answer) -> Seen {
+fn expected(answer: Answer, requester: &Requester) -> Seen {
     let stage = |failed| match failed {
         None => MufasaFailedStage::None,
         Some(FailedStage::Input) => MufasaFailedStage::Input,
@@ -278,11 +305,18 @@ fn expected(answer: Answer) -> Seen {
         Some(FailedStage::Stage(Stage::Iv)) => MufasaFailedStage::Iv,
         Some(FailedStage::Stage(Stage::V)) => MufasaFailedStage::V,
     };
+    let local_of = |group, number| match requester.source(group) {
+        Source::Local => number as u32,
+        Source::Remote { .. } => 0,
+    };
+    let local_services =
+        local_of(Group::Mot, MufasaGroup::Mot) + local_of(Group::Plan, MufasaGroup::Plan);
     let decided = |Decision { report, tracks, trajectory, brake_by_ns, brake: _ }| Decided {
         failed: report.map(|report| stage(report.failed_stage)).map_err(drop),
         tracks_ns: tracks.map(|it| it.stamp_ns),
         trajectory_ns: trajectory.map(|it| it.stamp_ns),
         brake_by_ns,
+        local_services,
     };
     Seen {
         groups: [answer.mot, answer.plan],
@@ -327,7 +361,7 @@ fn the_monitor_in_c_answers_as_the_model() {
                 saw("own tracks left out", too_many.is_some());
             }
             let answer = model.step(event.clone());
-            let (found, wanted) = (in_c.step(&event), expected(answer.clone()));
+            let (found, wanted) = (in_c.step(&event), expected(answer.clone(), model.requester()));
             assert_eq!(found, wanted, "{profile:?}, seed {seed}, step {step}: {event:?}");
             script.take(&event, &answer);
             saw("steps", true);
