@@ -25,7 +25,7 @@ mod tree;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use citations::{Citations, citations, is_code, strangers};
+use citations::{Citations, citations, evidence, is_code, strangers};
 use code::{exempt, matrix, not_implemented};
 use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
 use lock::{Lock, definitions};
@@ -87,7 +87,7 @@ fn every_requirement_has_an_id_of_its_own() {
 fn every_requirement_is_cited_by_a_test_a_vector_or_a_proof() {
     let tree = Tree::here();
     let (found, _) = requirements(&tree);
-    let cited = citations(&tree);
+    let cited = evidence(&tree);
     for Requirement { id, text, .. } in &found {
         let by: Vec<&str> = cited.get(id).into_iter().flatten().map(String::as_str).collect();
         println!("{id}\n    {text}\n    {}", by.join(" "));
@@ -106,7 +106,7 @@ fn every_requirement_is_implemented_somewhere() {
 #[test]
 fn the_matrix_is_what_the_sources_say() {
     let tree = Tree::here();
-    let matrix = matrix(&tree, &requirements(&tree).0, &citations(&tree));
+    let matrix = matrix(&tree, &requirements(&tree).0, &evidence(&tree));
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(MATRIX);
     if ["UPDATE_MATRIX", "CONFIRM"].iter().any(|name| std::env::var_os(name).is_some()) {
         std::fs::write(&file, &matrix).expect("the matrix can be written");
@@ -177,6 +177,19 @@ mod tests {
         let found = requirements(&tree).0;
         let retired = BTreeSet::from(["A-09".to_owned()]);
         [not_cited(&tree, &found, &citations(&tree)), strangers(&tree, &found, &retired)]
+    }
+
+    #[test]
+    fn what_no_page_has_an_answer_for_is_no_proof() {
+        let source = "const ALL: &[Theorem] = &[\n    // A-01\n    id: \"it_is\", // A-02\n];\n/// A-03\nfn part() {}\n";
+        let files = [
+            ("docs/proofs.md", "| `it_is` | It is. | z3 |\n| `a::verify` | So. | cbmc |\n"),
+            ("proofs/theorems/src/theorem/b.rs", source),
+            ("proofs/src/harness/a.rs", "/// A-04\nfn verify() {}\n/// A-05\nfn other() {}\n"),
+            ("proofs/src/law/c.rs", "/// A-06\npub fn law() -> bool {}\n"),
+        ];
+        let kept = evidence(&tree(&files)).into_iter().filter(|(_, by)| !by.is_empty());
+        assert_eq!(kept.map(|(id, _)| id).collect::<Vec<_>>(), ["A-02", "A-04", "A-06"]);
     }
 
     #[test]

@@ -39,6 +39,24 @@ pub fn citations(tree: &Tree) -> Citations {
     found
 }
 
+/// Of what cites them what is evidence: of proofs the claims that a page has an answer for, and the laws that harnesses
+/// assert. A step that shows that a law is not empty, or a part of a theorem, is none.
+pub fn evidence(tree: &Tree) -> Citations {
+    let pages = ["docs/proofs.md", "docs/exploration.md"].map(|it| tree.0.get(it));
+    let rows = pages.into_iter().flatten().flat_map(|page| page.lines());
+    let names = rows.filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
+    let answered: BTreeSet<&str> = names.map(|it| it.trim_matches('`')).collect();
+    let is_answered = |by: &str| {
+        let (path, name) = by.split_once("::").unwrap_or((by, ""));
+        let module = path.rsplit('/').next().unwrap_or_default().trim_end_matches(".rs");
+        let has_row = answered.contains(name) || answered.contains(&*format!("{module}::{name}"));
+        has_row || path == "proofs/expected.toml" || path.starts_with("proofs/src/law/")
+    };
+    let mut found = citations(tree);
+    found.values_mut().for_each(|its| its.retain(|by| !is_proof(by) || is_answered(by)));
+    found
+}
+
 fn of_file<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, String)> {
     let is_test = text.contains("#[test]") || text.contains("proptest!");
     match (path.split('/').next(), kind(path)) {
