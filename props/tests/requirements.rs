@@ -26,7 +26,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use citations::{Citations, citations, evidence, is_code, strangers};
-use code::{exempt, matrix, not_implemented};
+use code::{exempt, matrix, not_implemented, not_proved};
 use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
 use lock::{Lock, definitions};
 use tree::Tree;
@@ -101,6 +101,13 @@ fn every_requirement_is_implemented_somewhere() {
     let tree = Tree::here();
     let wrong = not_implemented(&tree, &requirements(&tree).0, &citations(&tree));
     assert!(wrong.is_empty(), "\n{}\n\nsee CONTRIBUTING.md, Requirements", wrong.join("\n"));
+}
+
+#[test]
+fn every_requirement_has_a_proof_or_a_reason_why_not() {
+    let tree = Tree::here();
+    let wrong = not_proved(&tree, &requirements(&tree).0, &evidence(&tree));
+    assert!(wrong.is_empty(), "\n{}\n\nsee {PREFIXES}, last column", wrong.join("\n"));
 }
 
 #[test]
