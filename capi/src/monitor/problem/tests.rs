@@ -3,6 +3,7 @@
 use core::ffi::CStr;
 
 use super::{MufasaMonitorSettings, checked};
+use crate::cycle::MufasaProfile;
 use crate::monitor::settings::mufasa_monitor_settings_default;
 
 /// The field, and the value, least and most, that are told of settings with one change.
@@ -42,8 +43,16 @@ fn each_problem_names_its_field_and_its_numbers() {
     let (field, [value, _, most]) = told(|it| it.most_detections = 2048);
     assert_eq!((field.as_str(), value), ("most_detections", 2048.0));
     assert!(most < 2048.0);
-    let (field, [value, ..]) = told(|it| it.stages.max_age_ns = 1_000_000);
-    assert_eq!((field.as_str(), value), ("parameters.max_age_ns", 1e6));
+    let (field, [value, least, _]) = told(|it| it.stages.max_age_ns = 1_000_000);
+    assert_eq!((field.as_str(), [value, least]), ("parameters.max_age_ns", [1e6, 5e7]));
+    let (field, [value, least, _]) = told(|it| it.stages.tau = 0.05);
+    assert_eq!((field.as_str(), [value, least]), ("parameters.tau", [0.05; 2]));
+    // The hardened rules alone need places for detections.
+    assert_eq!(told(|it| it.most_detections = 0).0, "most_detections");
+    let paper = |it: &mut MufasaMonitorSettings| {
+        (it.profile, it.most_detections) = (MufasaProfile::Paper as u32, 0);
+    };
+    assert_eq!(told(paper).0, "");
 }
 
 /// The remedy differs though the field does not.
