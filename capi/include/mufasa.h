@@ -355,24 +355,45 @@ typedef uint32_t MufasaAdvice;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The state of a group.
-enum MufasaGroupStateKind
+// Why control has to brake.
+enum MufasaBrakeReason
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // It runs on the CAV.
-  MUFASA_GROUP_STATE_KIND_LOCAL = 0,
-  // It runs on the CAV, and a station was asked to run it.
-  MUFASA_GROUP_STATE_KIND_REQUESTED = 1,
-  // It runs on a station.
-  MUFASA_GROUP_STATE_KIND_REMOTE = 2,
+  // It has not to.
+  MUFASA_BRAKE_REASON_NONE = 0,
+  // The CAV has no current plan of its own.
+  MUFASA_BRAKE_REASON_NO_PLAN = 1,
+  // Its plan fails, in `failed_stage`, for `witness`.
+  MUFASA_BRAKE_REASON_FAILS = 2,
+  // The plan, or other local input, is invalid; `input` says what.
+  MUFASA_BRAKE_REASON_INVALID = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum MufasaGroupStateKind MufasaGroupStateKind;
+typedef enum MufasaBrakeReason MufasaBrakeReason;
 #else
-typedef uint32_t MufasaGroupStateKind;
+typedef uint32_t MufasaBrakeReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
+enum MufasaProfile
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The published method.
+  MUFASA_PROFILE_PAPER = 1,
+  // The published method and the rules H-nn.
+  MUFASA_PROFILE_HARDENED = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaProfile MufasaProfile;
+#else
+typedef uint32_t MufasaProfile;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -396,25 +417,6 @@ enum MufasaConfiguration
 typedef enum MufasaConfiguration MufasaConfiguration;
 #else
 typedef uint32_t MufasaConfiguration;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
-enum MufasaProfile
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // The published method.
-  MUFASA_PROFILE_PAPER = 1,
-  // The published method and the rules H-nn.
-  MUFASA_PROFILE_HARDENED = 2,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum MufasaProfile MufasaProfile;
-#else
-typedef uint32_t MufasaProfile;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -862,6 +864,13 @@ typedef struct MufasaMonitorSettings {
   uint64_t step_ps;
   // Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
   uint32_t meant;
+  // 1: while all groups are local `brake` of a decision says whether control has to brake instead of following the
+  // plan of the CAV's own. Lists may then take half the steps. Else 0: nobody examines that plan.
+  uint32_t supervise_local;
+  // How far the CAV gets, m, at least 0, in the time below; else PLAN is given back.
+  double stall_way_m;
+  // For how long PLAN is remote meanwhile, ns, at least 1 s; 0: PLAN is never given back for this reason.
+  int64_t stall_time_ns;
   // Stations that ever offer something, at least 1.
   size_t most_stations;
   // Tracks of a list, at least 1.
@@ -957,6 +966,19 @@ typedef struct MufasaMonitorInputs {
   const struct MufasaTrajectory *local_trajectory;
 } MufasaMonitorInputs;
 
+// Whether control has to brake with at least `a_b`, from this cycle on until one says nothing of the kind, instead of
+// following a plan of the CAV's own. Only with `supervise_local`.
+typedef struct MufasaBrake {
+  // Whether, and why: `if (decision.brake.reason)`.
+  MufasaBrakeReason reason;
+  // Of a plan that fails.
+  MufasaFailedStage failed_stage;
+  // Of a plan that fails; none where nothing compared it with obstacles (H-05).
+  struct MufasaWitness witness;
+  // Of invalid input.
+  struct MufasaInvalidInput input;
+} MufasaBrake;
+
 // The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
 // its next call, which empties the lists.
 typedef struct MufasaDecision {
@@ -982,35 +1004,9 @@ typedef struct MufasaDecision {
   uint32_t local_services;
   // What this program seems to get wrong, if there is something new; `mufasa_advice_text` says it in words.
   MufasaAdvice advice;
+  // Of the CAV's own plan.
+  struct MufasaBrake brake;
 } MufasaDecision;
-
-// The state of a group.
-typedef struct MufasaGroupState {
-  // What it is.
-  MufasaGroupStateKind kind;
-  // The station, or 0.
-  int64_t station;
-  // The session, or 0.
-  int64_t session;
-  // Of a requested group: a confirmation must come before this time.
-  struct MufasaTime deadline;
-  // The station whose results may reach control; 0 is the CAV.
-  int64_t source;
-} MufasaGroupState;
-
-// The state of a requester.
-typedef struct MufasaRequesterState {
-  // MOT.
-  struct MufasaGroupState mot;
-  // PLAN.
-  struct MufasaGroupState plan;
-  // Which groups are remote.
-  MufasaConfiguration configuration;
-  // 0: there never was a hold.
-  uint32_t has_hold;
-  // No request is sent before this time.
-  struct MufasaTime hold_until;
-} MufasaRequesterState;
 
 // What is wrong with settings. The texts are empty when nothing is.
 typedef struct MufasaSettingsProblem {
@@ -1181,14 +1177,6 @@ MufasaStatus mufasa_monitor_cycle(struct MufasaMonitor *monitor,
                                   struct MufasaTime now,
                                   const struct MufasaMonitorInputs *inputs,
                                   struct MufasaDecision *decision);
-
-// Writes the state of the monitor's requester.
-//
-// # Safety
-// `monitor` as for `mufasa_monitor_set_route`; `state` is null or can be written to.
-MUFASA_MUST_USE
-MufasaStatus mufasa_monitor_state(const struct MufasaMonitor *monitor,
-                                  struct MufasaRequesterState *state);
 
 // What `mufasa_monitor_init` says of these settings, whatever the memory, and writes which field is wrong
 // and what would be right; empty texts when none is.

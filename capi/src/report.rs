@@ -178,7 +178,7 @@ pub struct MufasaReport {
     pub input: MufasaInvalidInput,
 }
 
-const NO_WITNESS: MufasaWitness = MufasaWitness {
+pub(crate) const NO_WITNESS: MufasaWitness = MufasaWitness {
     rule: MufasaRule::None,
     has_track: 0,
     track: 0,
@@ -219,7 +219,7 @@ pub(crate) fn report_of(report: &Report) -> MufasaReport {
     }
 }
 
-fn failed_stage(failed: Option<FailedStage>) -> MufasaFailedStage {
+pub(crate) fn failed_stage(failed: Option<FailedStage>) -> MufasaFailedStage {
     match failed {
         None => MufasaFailedStage::None,
         Some(FailedStage::Input) => MufasaFailedStage::Input,
@@ -263,7 +263,7 @@ const fn missing(input: Input) -> MufasaInput {
     }
 }
 
-fn witness(witness: &Witness) -> MufasaWitness {
+pub(crate) fn witness(witness: &Witness) -> MufasaWitness {
     let &Witness {
         rule: broken,
         point,

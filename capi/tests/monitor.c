@@ -415,6 +415,36 @@ static void times_have_units(void) {
   EXPECT(mufasa_gap_between_bumpers(2.5).between_bumpers == 2.5);
 }
 
+/* Only where it was asked for, the CAV's own plan is examined while all groups are local. */
+static void own_plans_that_fail_say_brake(void) {
+  struct MufasaMonitorSettings it = settings();
+  struct MufasaMonitor *monitor = NULL;
+  for (it.supervise_local = 0; it.supervise_local < 2; ++it.supervise_local) {
+    EXPECT(make(&it, &monitor) == MUFASA_STATUS_OK);
+    EXPECT(mufasa_monitor_set_route(monitor, &route) == MUFASA_STATUS_OK);
+    cycle(monitor, 5 * MS);
+    EXPECT(decision.brake.reason == (it.supervise_local ? MUFASA_BRAKE_REASON_NO_PLAN : MUFASA_BRAKE_REASON_NONE));
+    for (int i = 0; i < 3; ++i) points[i].t = AT((10 + 100 * i) * MS);
+    own.points = points, own.points_len = 3;
+    inputs.local_trajectory = &own;
+    cycle(monitor, 10 * MS);
+    EXPECT(decision.report.safe && decision.brake.reason == MUFASA_BRAKE_REASON_NONE);
+    seen[0].x = 5.5;
+    cycle(monitor, 15 * MS);
+    EXPECT(decision.brake.reason == (it.supervise_local ? MUFASA_BRAKE_REASON_FAILS : MUFASA_BRAKE_REASON_NONE));
+    EXPECT(decision.brake.failed_stage == (it.supervise_local ? MUFASA_FAILED_STAGE_IV : MUFASA_FAILED_STAGE_NONE));
+    EXPECT(!it.supervise_local || decision.brake.witness.detection == 0);
+    seen[0].x = 15;
+    inputs.ego.width = -1;
+    cycle(monitor, 20 * MS);
+    EXPECT(decision.brake.reason == (it.supervise_local ? MUFASA_BRAKE_REASON_INVALID : MUFASA_BRAKE_REASON_NONE));
+    EXPECT(!it.supervise_local || strcmp(decision.brake.input.field, "ego.width") == 0);
+    inputs.ego.width = 1.9;
+    inputs.local_trajectory = NULL;
+  }
+  EXPECT(mufasa_monitor_given_back(monitor).ns == INT64_MIN && mufasa_monitor_given_back(NULL).ns == INT64_MIN);
+}
+
 int main(void) {
   inputs.ego = (struct MufasaEgo){0, 0, 1, 0, 5, 4.8, 1.9, 1.4};
   inputs.detections = &detections;
@@ -430,6 +460,7 @@ int main(void) {
   settings_that_no_monitor_can_keep();
   a_status_of_the_settings_has_a_field();
   times_have_units();
+  own_plans_that_fail_say_brake();
   EXPECT(mufasa_version() ==
          MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH);
   return report_failures();

@@ -16,7 +16,7 @@ use crate::convert;
 use crate::cycle::MufasaRoute;
 use crate::event::{self, MufasaEvent, MufasaEventType};
 use crate::memory::{Arena, list, optional, put, required, required_mut};
-use crate::requester::{self, MufasaRequesterState};
+use crate::requester;
 use crate::status::MufasaStatus;
 use crate::time::MufasaTime;
 
@@ -161,27 +161,6 @@ pub unsafe extern "C" fn mufasa_monitor_cycle(
     };
     // SAFETY: as above.
     unsafe { put(decision, told) }.map_or_else(|fault| fault, |()| status)
-}
-
-/// Writes the state of the monitor's requester.
-///
-/// # Safety
-/// `monitor` as for `mufasa_monitor_set_route`; `state` is null or can be written to.
-#[must_use]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn mufasa_monitor_state(
-    monitor: *const MufasaMonitor,
-    state: *mut MufasaRequesterState,
-) -> MufasaStatus {
-    // SAFETY: the caller's duty, here and below.
-    match unsafe { required(monitor) } {
-        Ok(it) => {
-            let told = requester::state_of(it.monitor.requester());
-            // SAFETY: as above.
-            unsafe { put(state, told) }.map_or_else(|fault| fault, |()| MufasaStatus::Ok)
-        }
-        Err(status) => status,
-    }
 }
 
 /// Writes the actions of a call, or that there are none. That they can be written is known before anything
@@ -387,6 +366,6 @@ fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
     };
     let MufasaMonitor { monitor, verdicts, tracks, trajectory, .. } = monitor;
     let inputs = with_remote(Inputs::new(now.time(), nowhere), tracks, trajectory);
-    let MufasaDecision { actions, advice, .. } = verdicts.of_cycle(monitor, &inputs);
-    MufasaDecision { actions, advice, ..nothing_decided() }
+    let MufasaDecision { actions, advice, brake, .. } = verdicts.of_cycle(monitor, &inputs);
+    MufasaDecision { actions, advice, brake, ..nothing_decided() }
 }

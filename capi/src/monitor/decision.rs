@@ -3,12 +3,13 @@
 use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{Advice, Decision, DropReason, Inputs, Monitor, Time, Verified};
+use mufasa::monitor::{Advice, Brake, Decision, DropReason, Inputs, Monitor, Time, Verified};
 use mufasa::offloading::requester::{Action, Actions, Group, Source};
+use mufasa::report::{InvalidInput, Witness};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
-use crate::report::{self, MufasaReport};
+use crate::report::{self, MufasaFailedStage, MufasaInvalidInput, MufasaReport, MufasaWitness};
 use crate::time::MufasaTime;
 
 /// Why a message of a station was dropped; of several reasons the first in this order, except that
@@ -105,6 +106,35 @@ pub struct MufasaActions {
     pub items: [MufasaAction; MUFASA_MAX_ACTIONS],
 }
 
+/// Why control has to brake.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaBrakeReason {
+    /// It has not to.
+    None = 0,
+    /// The CAV has no current plan of its own.
+    NoPlan = 1,
+    /// Its plan fails, in `failed_stage`, for `witness`.
+    Fails = 2,
+    /// The plan, or other local input, is invalid; `input` says what.
+    Invalid = 3,
+}
+
+/// Whether control has to brake with at least `a_b`, from this cycle on until one says nothing of the kind, instead of
+/// following a plan of the CAV's own. Only with `supervise_local`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaBrake {
+    /// Whether, and why: `if (decision.brake.reason)`.
+    pub reason: MufasaBrakeReason,
+    /// Of a plan that fails.
+    pub failed_stage: MufasaFailedStage,
+    /// Of a plan that fails; none where nothing compared it with obstacles (H-05).
+    pub witness: MufasaWitness,
+    /// Of invalid input.
+    pub input: MufasaInvalidInput,
+}
+
 /// The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
 /// its next call, which empties the lists.
 #[repr(C)]
@@ -132,6 +162,8 @@ pub struct MufasaDecision {
     pub local_services: u32,
     /// What this program seems to get wrong, if there is something new; `mufasa_advice_text` says it in words.
     pub advice: MufasaAdvice,
+    /// Of the CAV's own plan.
+    pub brake: MufasaBrake,
 }
 
 /// No time by which to brake.
@@ -181,7 +213,7 @@ impl Verdicts {
 
     fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {
         match decision {
-            Decision::Safe { tracks, trajectory, report, .. } => {
+            Decision::Safe { tracks, trajectory, report, brake } => {
                 let has_tracks = tracks.is_some_and(|list| self.keep_tracks(&list));
                 let has_trajectory = trajectory.is_some_and(|it| self.keep_trajectory(&it));
                 MufasaDecision {
@@ -194,9 +226,10 @@ impl Verdicts {
                     actions: actions_of(actions),
                     local_services: EVERY_GROUP,
                     advice: MufasaAdvice::None,
+                    brake: brake_of(*brake),
                 }
             }
-            Decision::Unsafe { report, .. } => MufasaDecision {
+            Decision::Unsafe { report, brake } => MufasaDecision {
                 report: match report {
                     Ok(report) => report::report_of(report),
                     Err(problem) => report::error(Some(*problem)),
@@ -207,6 +240,7 @@ impl Verdicts {
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
                 advice: MufasaAdvice::None,
+                brake: brake_of(*brake),
             },
         }
     }
@@ -245,6 +279,24 @@ pub(super) fn nothing_decided() -> MufasaDecision {
         actions: actions_of(&[]),
         local_services: EVERY_GROUP,
         advice: MufasaAdvice::None,
+        brake: brake_of(None),
+    }
+}
+
+fn brake_of(brake: Option<Brake>) -> MufasaBrake {
+    let of = |reason, stage, witness: Option<Witness>, input: Option<InvalidInput>| MufasaBrake {
+        reason,
+        failed_stage: report::failed_stage(stage),
+        witness: witness.as_ref().map_or(report::NO_WITNESS, report::witness),
+        input: report::input(input),
+    };
+    match brake {
+        None => of(MufasaBrakeReason::None, None, None, None),
+        Some(Brake::NoPlan) => of(MufasaBrakeReason::NoPlan, None, None, None),
+        Some(Brake::Fails { stage, witness }) => {
+            of(MufasaBrakeReason::Fails, Some(stage), witness, None)
+        }
+        Some(Brake::Invalid(input)) => of(MufasaBrakeReason::Invalid, None, None, Some(input)),
     }
 }
 

@@ -79,7 +79,11 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
             return (MufasaStatus::InvalidPeriod, told("period_ns", POSITIVE));
         }
         Err(MufasaStatus::InvalidParameter) => {
-            let told = told("check_time_ns", "below 0; give ns, or INT64_MAX for any time");
+            let told = if settings.check_time_ns < 0 {
+                told("check_time_ns", "below 0; give ns, or INT64_MAX for any time")
+            } else {
+                told("stall_time_ns", NO_STALL)
+            };
             return (MufasaStatus::InvalidParameter, told);
         }
         Err(status) => return (status, told("profile", "no MufasaProfile")),
@@ -139,7 +143,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
                 "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0",
             )
         },
-        MonitorError::Stall { .. } => told("stall", ""),
+        MonitorError::Stall { way_m, .. } => of_stall(way_m, settings.stall_time_ns),
         MonitorError::Memory { field, .. } => told(field, AT_LEAST_1),
         // IMPL-12
         MonitorError::TooSlow { list, given, most, .. } => {
@@ -165,6 +169,15 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaSettingsPro
         }
     };
     (refused(error), told)
+}
+
+fn of_stall(way_m: f64, time_ns: i64) -> MufasaSettingsProblem {
+    let (field, message, value, least) = if (0.0..f64::INFINITY).contains(&way_m) {
+        ("stall_time_ns", NO_STALL, number(time_ns), 1e9)
+    } else {
+        ("stall_way_m", "below 0 or not finite; give the way in m", way_m, 0.0)
+    };
+    MufasaSettingsProblem { value, least, ..told(field, message) }
 }
 
 /// A problem without numbers.
@@ -203,6 +216,7 @@ fn number(ns: i64) -> f64 {
 }
 
 const POSITIVE: &str = "not above 0; give the nominal period of the results, ns";
+const NO_STALL: &str = "below 1 s; give the longest stop that a plan may make, ns, or 0 for any";
 const AT_LEAST_1: &str = "give at least 1";
 
 /// A number of things that has to be at least 1 and is not.

@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 use core::time::Duration;
 
-use mufasa::monitor::{Monitor, MonitorError, Settings};
+use mufasa::monitor::{Monitor, MonitorError, Settings, Stall};
 
 use crate::convert;
 use crate::cycle::MufasaProfile;
@@ -36,6 +36,13 @@ pub struct MufasaMonitorSettings {
     pub step_ps: u64,
     /// Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
     pub meant: u32,
+    /// 1: while all groups are local `brake` of a decision says whether control has to brake instead of following the
+    /// plan of the CAV's own. Lists may then take half the steps. Else 0: nobody examines that plan.
+    pub supervise_local: u32,
+    /// How far the CAV gets, m, at least 0, in the time below; else PLAN is given back.
+    pub stall_way_m: f64,
+    /// For how long PLAN is remote meanwhile, ns, at least 1 s; 0: PLAN is never given back for this reason.
+    pub stall_time_ns: i64,
     /// Stations that ever offer something, at least 1.
     pub most_stations: usize,
     /// Tracks of a list, at least 1.
@@ -63,6 +70,9 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         check_time_ns: 10_000_000,
         step_ps: 750,
         meant: 0,
+        supervise_local: 0,
+        stall_way_m: 1.0,
+        stall_time_ns: 0,
         most_stations: 8,
         most_tracks: 128,
         most_points: 128,
@@ -103,6 +113,9 @@ impl MufasaMonitorSettings {
             i64::MAX => Duration::MAX,
             _ => Duration::from_nanos(check_time_ns),
         };
+        let stall_time_ns =
+            u64::try_from(self.stall_time_ns).map_err(|_| MufasaStatus::InvalidParameter)?;
+        let stall = Stall { way_m: self.stall_way_m, time: Duration::from_nanos(stall_time_ns) };
         Ok(Settings {
             profile: convert::profile(self.profile)?,
             stages: self.stages.into(),
@@ -112,7 +125,8 @@ impl MufasaMonitorSettings {
             check_time,
             step_ps: self.step_ps,
             meant: self.meant,
-            ..Settings::new(period)
+            supervise_local: self.supervise_local != 0,
+            stall: (stall_time_ns != 0).then_some(stall),
         })
     }
 }

@@ -47,6 +47,13 @@ fn each_problem_names_its_field_and_its_numbers() {
     assert_eq!((field.as_str(), [value, least]), ("parameters.max_age_ns", [1e6, 5e7]));
     let (field, [value, least, _]) = told(|it| it.stages.tau = 0.05);
     assert_eq!((field.as_str(), [value, least]), ("parameters.tau", [0.05; 2]));
+    let stalls = |way_m: f64, ns: i64| told(|it| (it.stall_way_m, it.stall_time_ns) = (way_m, ns));
+    assert_eq!(stalls(f64::NAN, 0).0, "");
+    let (field, [value, least, _]) = stalls(0.0, 999_999_999);
+    assert_eq!((field.as_str(), [value, least]), ("stall_time_ns", [999_999_999.0, 1e9]));
+    let (field, [value, least, _]) = stalls(-1.0, 1_000_000_000);
+    assert_eq!((field.as_str(), [value, least]), ("stall_way_m", [-1.0, 0.0]));
+    assert_eq!([stalls(0.0, 1_000_000_000).0, stalls(1.0, -1).0], ["", "stall_time_ns"]);
     // The hardened rules alone need places for detections.
     assert_eq!(told(|it| it.most_detections = 0).0, "most_detections");
     let paper = |it: &mut MufasaMonitorSettings| {

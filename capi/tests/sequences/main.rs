@@ -1,10 +1,11 @@
 //! The monitor of the C interface answers as its exact model on the sequences of `mufasa_props`
 //! (`spec/monitor.md#monitor`).
 //!
-//! `MufasaMonitorSettings` has neither `supervise_local` nor `stall`: `brake` and the time at which PLAN was given back
-//! are not shown in C. Own tracks beyond the settings, refused even while MOT is remote (MON-65), are left out and counted.
+//! Own tracks beyond the settings, refused even while MOT is remote (MON-65), are left out and counted.
 
+#[path = "../records/mod.rs"]
 mod records;
+mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
@@ -13,32 +14,33 @@ use std::ptr::{from_ref, null, null_mut};
 use std::slice;
 
 use mufasa_capi::cycle::{MufasaProfile, MufasaRoute};
-use mufasa_capi::event::{
-    MufasaAction, MufasaActionType, MufasaEvent, MufasaEventType as Kind, MufasaGroup,
-};
+use mufasa_capi::event::MufasaGroup;
 use mufasa_capi::monitor::{
-    MufasaActions, MufasaDecision, MufasaDropReason, MufasaMonitor, MufasaMonitorInputs,
+    MufasaActions, MufasaBrakeReason, MufasaDecision, MufasaMonitor, MufasaMonitorInputs,
     MufasaMonitorSettings, MufasaTrackMessage, MufasaTrajectoryMessage, mufasa_monitor_bytes,
-    mufasa_monitor_cycle, mufasa_monitor_init, mufasa_monitor_set_route,
+    mufasa_monitor_cycle, mufasa_monitor_given_back, mufasa_monitor_init, mufasa_monitor_set_route,
     mufasa_monitor_settings_default, mufasa_monitor_state, mufasa_monitor_step,
     mufasa_monitor_tracks, mufasa_monitor_trajectory,
 };
 use mufasa_capi::report::MufasaFailedStage;
-use mufasa_capi::requester::{MufasaGroupState, MufasaGroupStateKind, MufasaRequesterState};
+use mufasa_capi::requester::MufasaRequesterState;
 use mufasa_capi::status::MufasaStatus;
 use mufasa_capi::time::MufasaTime;
 use mufasa_model::input::cycle::{Route, TrackList, Trajectory};
 use mufasa_model::input::profile::Profile;
 use mufasa_model::monitor::Monitor;
-use mufasa_model::monitor::messages::{Answer, Decision, Dropped, Event, EventKind, Measured};
+use mufasa_model::monitor::messages::{
+    Answer, Brake, Decision, Dropped, Event, EventKind, Measured,
+};
 use mufasa_model::monitor::settings::Settings;
-use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups, Requester};
+use mufasa_model::offloading::requester::{Action, Group, GroupState, Requester};
 use mufasa_model::report::{FailedStage, Reading, Stage};
 use mufasa_model::services::configuration::Source;
 use mufasa_props::bridge;
 use mufasa_props::strategy::monitor::{Script, route};
 
 use records::{detection, detection_list, path, point, time, track, track_list};
+use words::{group_state, plain, reason, taken};
 
 /// Sequences of each profile.
 const SEQUENCES: u64 = 60;
@@ -54,6 +56,7 @@ struct Seen {
     actions: Vec<Action>,
     /// An older element counts as repeated: C has one word for both.
     dropped: Option<Dropped>,
+    given_back_ns: Option<i64>,
     decision: Option<Decided>,
 }
 
@@ -66,6 +69,8 @@ struct Decided {
     brake_by_ns: Option<i64>,
     /// Bits as of `MufasaGroup`.
     local_services: u32,
+    /// The reason, and the stage that failed.
+    brake: (MufasaBrakeReason, MufasaFailedStage),
 }
 
 /// A monitor in memory of its own.
@@ -96,6 +101,9 @@ impl InC {
             // As many as those of the sequences have.
             most_points: 2,
             meant: u32::MAX,
+            supervise_local: settings.supervise_local.into(),
+            stall_way_m: settings.stall.as_ref().map_or(0.0, |it| it.way),
+            stall_time_ns: settings.stall.as_ref().map_or(0, |it| it.time_ns),
             most_tracks: count(settings.memory.tracks),
             most_detections: count(settings.memory.detections),
             most_cross_sections: count(settings.memory.cross_sections),
@@ -166,6 +174,9 @@ impl InC {
             groups: [state.mot, state.plan].map(group_state),
             hold_until_ns: (state.has_hold != 0).then_some(state.hold_until.ns),
             dropped: reason(actions.dropped),
+            // SAFETY: as above.
+            given_back_ns: Some(unsafe { mufasa_monitor_given_back(self.monitor) }.ns)
+                .filter(|it| *it != i64::MIN),
             actions: taken(&actions),
             decision,
         }
@@ -222,75 +233,10 @@ impl InC {
             trajectory_ns: trajectory.map(|it| it.stamp.ns),
             brake_by_ns: Some(decision.brake_by.ns).filter(|it| *it != i64::MAX),
             local_services: decision.local_services,
+            brake: (decision.brake.reason, decision.brake.failed_stage),
         };
         (decided, decision.actions)
     }
-}
-
-/// An event that needs no more than this.
-fn plain(t: MufasaTime, kind: &EventKind) -> MufasaEvent {
-    let set = |Groups { mot, plan }: Groups| u32::from(mot) | u32::from(plan) << 1;
-    let one = |group: Group| set(Groups { mot: group == Group::Mot, plan: group == Group::Plan });
-    let (event_type, station, group, groups, session) = match *kind {
-        EventKind::Offer { station, groups } => (Kind::Offer, station, 0, set(groups), 0),
-        EventKind::Withdraw { station } => (Kind::Withdraw, station, 0, 0, 0),
-        EventKind::Lost { station } => (Kind::Lost, station, 0, 0, 0),
-        EventKind::Area { groups } => (Kind::Area, 0, 0, set(groups), 0),
-        EventKind::Tick => (Kind::Tick, 0, 0, 0, 0),
-        EventKind::Confirm { station, group, session } => {
-            (Kind::Confirm, station, one(group), 0, session)
-        }
-        EventKind::Reject { station, group, session } => {
-            (Kind::Reject, station, one(group), 0, session)
-        }
-        EventKind::Tracks { .. } | EventKind::Trajectory { .. } | EventKind::Cycle { .. } => {
-            unreachable!("these have contents")
-        }
-    };
-    MufasaEvent { t, event_type: event_type as u32, group, groups, station, session }
-}
-
-fn group_state(it: MufasaGroupState) -> GroupState {
-    let MufasaGroupState { kind, station, session, deadline, .. } = it;
-    match kind {
-        MufasaGroupStateKind::Local => GroupState::Local,
-        MufasaGroupStateKind::Requested => {
-            GroupState::Requested { station, session, deadline_ns: deadline.ns }
-        }
-        MufasaGroupStateKind::Remote => GroupState::Remote { station, session },
-    }
-}
-
-fn reason(it: MufasaDropReason) -> Option<Dropped> {
-    Some(match it {
-        MufasaDropReason::None => return None,
-        MufasaDropReason::TooLong => Dropped::DoesNotFit,
-        MufasaDropReason::OtherSession => Dropped::OtherSession,
-        MufasaDropReason::FromTheFuture
-        | MufasaDropReason::Late
-        | MufasaDropReason::AfterSilence => Dropped::Late,
-        MufasaDropReason::TooOld => Dropped::Stale,
-        MufasaDropReason::Starved => Dropped::Starved,
-        MufasaDropReason::NotNewer => Dropped::Repeated,
-    })
-}
-
-fn taken(actions: &MufasaActions) -> Vec<Action> {
-    let action = |it: &MufasaAction| {
-        let (station, session) = (it.station, it.session);
-        let group = match it.group {
-            MufasaGroup::Mot => Group::Mot,
-            MufasaGroup::Plan => Group::Plan,
-        };
-        match it.action_type {
-            MufasaActionType::Request => Action::Request { station, group, session },
-            MufasaActionType::Release => Action::Release { station, group, session },
-            MufasaActionType::Activate => Action::Activate(group),
-            MufasaActionType::Deactivate => Action::Deactivate(group),
-            MufasaActionType::Drop => Action::Drop(group),
-        }
-    };
-    actions.items[..actions.len].iter().map(action).collect()
 }
 
 /// What the model says of that.
@@ -311,16 +257,23 @@ fn expected(answer: Answer, requester: &Requester) -> Seen {
     };
     let local_services =
         local_of(Group::Mot, MufasaGroup::Mot) + local_of(Group::Plan, MufasaGroup::Plan);
-    let decided = |Decision { report, tracks, trajectory, brake_by_ns, brake: _ }| Decided {
+    let decided = |Decision { report, tracks, trajectory, brake_by_ns, brake }| Decided {
         failed: report.map(|report| stage(report.failed_stage)).map_err(drop),
         tracks_ns: tracks.map(|it| it.stamp_ns),
         trajectory_ns: trajectory.map(|it| it.stamp_ns),
         brake_by_ns,
         local_services,
+        brake: match brake {
+            None => (MufasaBrakeReason::None, MufasaFailedStage::None),
+            Some(Brake::NoTrajectory) => (MufasaBrakeReason::NoPlan, MufasaFailedStage::None),
+            Some(Brake::Failed(failed, _)) => (MufasaBrakeReason::Fails, stage(Some(failed))),
+            Some(Brake::Invalid(_)) => (MufasaBrakeReason::Invalid, MufasaFailedStage::None),
+        },
     };
     Seen {
         groups: [answer.mot, answer.plan],
         hold_until_ns: answer.hold_until_ns,
+        given_back_ns: answer.given_back_ns,
         actions: answer.actions,
         dropped: answer.dropped.map(|it| if it == Dropped::Older { Dropped::Repeated } else { it }),
         decision: answer.decision.map(decided),
@@ -346,8 +299,7 @@ fn the_monitor_in_c_answers_as_the_model() {
     let profiles = [Profile::PAPER, Profile::HARDENED];
     for (profile, seed) in (0..SEQUENCES).flat_map(|seed| profiles.map(|it| (it, seed))) {
         let tape = tape(seed);
-        let (mut script, drawn) = Script::new(&tape, profile);
-        let settings = Settings { supervise_local: false, stall: None, ..drawn };
+        let (mut script, settings) = Script::new(&tape, profile);
         let mut model = Monitor::new(settings.clone(), route(), Reading::Exact).expect("settings");
         let mut in_c = InC::new(&settings, &route());
         let mut last_ns = None;
@@ -366,6 +318,7 @@ fn the_monitor_in_c_answers_as_the_model() {
             script.take(&event, &answer);
             saw("steps", true);
             saw("dropped", wanted.dropped.is_some());
+            saw("given back", wanted.given_back_ns == Some(event.t_ns));
             let Some(decided) = wanted.decision else { continue };
             saw("errors", decided.failed.is_err());
             saw("unsafe", decided.failed.is_ok_and(|it| it != MufasaFailedStage::None));
@@ -375,6 +328,9 @@ fn the_monitor_in_c_answers_as_the_model() {
             saw("tracks of two cycles", kept);
             saw("trajectories", decided.trajectory_ns.is_some());
             saw("times to brake by", decided.brake_by_ns.is_some());
+            saw("own plans that fail", decided.brake.0 == MufasaBrakeReason::Fails);
+            saw("no own plan", decided.brake.0 == MufasaBrakeReason::NoPlan);
+            saw("invalid own input", decided.brake.0 == MufasaBrakeReason::Invalid);
         }
     }
     assert!(count["steps"] >= 10_000 && count["own tracks left out"] <= 50, "{count:?}");
