@@ -378,22 +378,24 @@ typedef uint32_t MufasaBrakeReason;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
-enum MufasaProfile
+// The state of a group.
+enum MufasaGroupStateKind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // The published method.
-  MUFASA_PROFILE_PAPER = 1,
-  // The published method and the rules H-nn.
-  MUFASA_PROFILE_HARDENED = 2,
+  // It runs on the CAV.
+  MUFASA_GROUP_STATE_KIND_LOCAL = 0,
+  // It runs on the CAV, and a station was asked to run it.
+  MUFASA_GROUP_STATE_KIND_REQUESTED = 1,
+  // It runs on a station.
+  MUFASA_GROUP_STATE_KIND_REMOTE = 2,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum MufasaProfile MufasaProfile;
+typedef enum MufasaGroupStateKind MufasaGroupStateKind;
 #else
-typedef uint32_t MufasaProfile;
+typedef uint32_t MufasaGroupStateKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -417,6 +419,25 @@ enum MufasaConfiguration
 typedef enum MufasaConfiguration MufasaConfiguration;
 #else
 typedef uint32_t MufasaConfiguration;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A profile; `MufasaMonitorSettings.profile` and `MufasaCycle.profile` take its number.
+enum MufasaProfile
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The published method.
+  MUFASA_PROFILE_PAPER = 1,
+  // The published method and the rules H-nn.
+  MUFASA_PROFILE_HARDENED = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaProfile MufasaProfile;
+#else
+typedef uint32_t MufasaProfile;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -1008,6 +1029,34 @@ typedef struct MufasaDecision {
   struct MufasaBrake brake;
 } MufasaDecision;
 
+// The state of a group.
+typedef struct MufasaGroupState {
+  // What it is.
+  MufasaGroupStateKind kind;
+  // The station, or 0.
+  int64_t station;
+  // The session, or 0.
+  int64_t session;
+  // Of a requested group: a confirmation must come before this time.
+  struct MufasaTime deadline;
+  // The station whose results may reach control; 0 is the CAV.
+  int64_t source;
+} MufasaGroupState;
+
+// The state of a requester.
+typedef struct MufasaRequesterState {
+  // MOT.
+  struct MufasaGroupState mot;
+  // PLAN.
+  struct MufasaGroupState plan;
+  // Which groups are remote.
+  MufasaConfiguration configuration;
+  // 0: there never was a hold.
+  uint32_t has_hold;
+  // No request is sent before this time.
+  struct MufasaTime hold_until;
+} MufasaRequesterState;
+
 // What is wrong with settings. The texts are empty when nothing is.
 typedef struct MufasaSettingsProblem {
   // Dotted path of the field; `parameters.x` names the field `x` of `stages`.
@@ -1177,6 +1226,22 @@ MufasaStatus mufasa_monitor_cycle(struct MufasaMonitor *monitor,
                                   struct MufasaTime now,
                                   const struct MufasaMonitorInputs *inputs,
                                   struct MufasaDecision *decision);
+
+// Writes the state of the monitor's requester.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `state` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_state(const struct MufasaMonitor *monitor,
+                                  struct MufasaRequesterState *state);
+
+// When PLAN was given back last because the CAV got nowhere (`stall_time_ns`), at a tick that names its release;
+// INT64_MIN ns: never, or the monitor is null.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`.
+MUFASA_MUST_USE
+struct MufasaTime mufasa_monitor_given_back(const struct MufasaMonitor *monitor);
 
 // What `mufasa_monitor_init` says of these settings, whatever the memory, and writes which field is wrong
 // and what would be right; empty texts when none is.

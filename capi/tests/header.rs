@@ -47,7 +47,7 @@ const PARAMETERS: [&str; 2] =
     [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
 
 /// Those with what C sees, in the order of the header.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "status",
     "version",
     "time",
@@ -61,6 +61,7 @@ const SOURCES: [&str; 15] = [
     "monitor/decision",
     "monitor/place",
     "monitor/calls",
+    "monitor/state",
     "monitor/problem",
     "text",
 ];
@@ -94,6 +95,27 @@ fn the_header_is_the_one_of_the_sources() {
          UPDATE_HEADER=1 cargo test -p mufasa-capi --test header writes it anew",
         line.map(|line| line + 1),
     );
+}
+
+/// A file that is not among the sources would be missed by nobody else.
+#[test]
+fn every_call_is_in_the_header() {
+    let (header, mut open) = (committed(), vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")]);
+    let mut count = 0;
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = fs::read_dir(path).expect("the sources");
+            open.extend(entries.map(|it| it.expect("a directory entry").path()));
+            continue;
+        }
+        let source = fs::read_to_string(&path).expect("a source is text");
+        for after in source.split("\"C\" fn mufasa_").skip(1) {
+            let name = after.split('(').next().expect("a name");
+            assert!(header.contains(&format!("mufasa_{name}(")), "{}: {name}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
 }
 
 const FRAME: &str = "right-handed frame";

@@ -235,6 +235,16 @@ static void what_contradicts_itself_is_told_once(void) {
   }
   lead.speed = 0;
   EXPECT(told == 1 && strlen(mufasa_advice_text(MUFASA_ADVICE_LEAD_SPEED)) > 20);
+  /* Of two in one cycle the second comes with the next call, though that cannot be read. */
+  monitor = offloading();
+  detections.stamp = lead.stamp = AT(0);
+  for (int64_t now_ns = 1020 * MS; decision.advice == MUFASA_ADVICE_NONE && now_ns < 2000 * MS; now_ns += 20 * MS) {
+    EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, now_ns, 0, 0) == MUFASA_STATUS_OK);
+    EXPECT(mufasa_monitor_cycle(monitor, AT(now_ns), &inputs, &decision) == MUFASA_STATUS_OK);
+  }
+  EXPECT(decision.advice == MUFASA_ADVICE_DETECTIONS_NOT_CURRENT);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(2000 * MS), NULL, &decision) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(decision.advice == MUFASA_ADVICE_LEAD_NOT_CURRENT);
   EXPECT(strstr(mufasa_failed_stage_text(MUFASA_FAILED_STAGE_III), "stage iii,") != NULL);
 }
 
@@ -441,6 +451,8 @@ static void own_plans_that_fail_say_brake(void) {
     EXPECT(!it.supervise_local || strcmp(decision.brake.input.field, "ego.width") == 0);
     inputs.ego.width = 1.9;
     inputs.local_trajectory = NULL;
+    EXPECT(mufasa_monitor_cycle(monitor, AT(25 * MS), NULL, &decision) == MUFASA_STATUS_NULL_POINTER);
+    EXPECT(decision.brake.reason == (it.supervise_local ? MUFASA_BRAKE_REASON_INVALID : MUFASA_BRAKE_REASON_NONE));
   }
   EXPECT(mufasa_monitor_given_back(monitor).ns == INT64_MIN && mufasa_monitor_given_back(NULL).ns == INT64_MIN);
 }
