@@ -92,14 +92,9 @@ pub fn h04() -> String {
         }
         points.iter().for_each(|point| pen.dot(xy(&point.pose.origin), 3.0, "line"));
         places.iter().for_each(|place| pen.dot(xy(&place.pose.origin), 2.4, "place"));
-        let bar = |pen: &mut Pen<'_>, from: f64, to: f64, y: f64, words: &str| {
-            pen.line(&[[from, y], [to, y]], "line");
-            [from, to].iter().for_each(|x| pen.line(&[[*x, y - 0.1], [*x, y + 0.1]], "line"));
-            pen.words([from.midpoint(to), y], [0.0, -4.0], "m", words);
-        };
         let first = xy(&points[0].pose.origin)[0];
-        bar(pen, first, first + s_b.near(), -1.75, "s_b from the first point");
-        bar(pen, 0.0, xy(&last.origin)[0], -2.2, "s_stop from p");
+        pen.bar(first, first + s_b.near(), -1.75, "s_b from the first point");
+        pen.bar(0.0, xy(&last.origin)[0], -2.2, "s_stop from p");
         pen.words([0.0, 0.0], [0.0, 22.0], "m", "p");
         pen.words(xy(&last.origin), [0.0, -10.0], "m", "last place");
     });

@@ -136,6 +136,13 @@ impl Pen<'_> {
         self.canvas.tip(a, b, 7.0, "tip");
     }
 
+    /// A bar along x with its ends, and words above it.
+    pub fn bar(&mut self, from: f64, to: f64, y: f64, words: &str) {
+        self.line(&[[from, y], [to, y]], "line");
+        [from, to].iter().for_each(|x| self.line(&[[*x, y - 0.1], [*x, y + 0.1]], "line"));
+        self.words([from.midpoint(to), y], [0.0, -4.0], "m", words);
+    }
+
     /// A dot of a radius in px.
     pub fn dot(&mut self, at: [f64; 2], radius: f64, class: &str) {
         self.canvas.circle(Some(self.at(at)), radius, class);
