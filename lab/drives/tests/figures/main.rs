@@ -3,6 +3,7 @@
 
 mod fail_safe;
 mod others;
+mod requester;
 mod rules;
 mod seen;
 mod sheet;
@@ -16,6 +17,7 @@ use std::path::Path;
 fn the_figures_are_what_the_model_computes() {
     let figures = [
         ("figures/stages", stages::stages()),
+        ("figures/requester", requester::states()),
         ("hardened/figures/H-01", rules::h01()),
         ("hardened/figures/H-04", rules::h04()),
         ("hardened/figures/H-06", rules::h06()),
