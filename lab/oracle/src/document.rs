@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::Path;
+use std::process::Command;
 
 /// The table of this name in the document. Errors: no such file, no markers.
 pub fn read(path: &Path, name: &str) -> io::Result<String> {
@@ -16,6 +17,23 @@ pub fn has_place(path: Option<&Path>, name: &str) -> Result<(), String> {
     let Some(path) = path else { return Ok(()) };
     let said = |error| format!("{}: no table can be put there: {error}", path.display());
     read(path, name).map(drop).map_err(said)
+}
+
+/// The line above a table that says of which commit it is: asked before the work, which may be changed behind it. Empty
+/// without a document, or where that is in no checkout. Errors: in words, such as that this program is of another commit.
+pub fn stamp(path: Option<&Path>) -> Result<String, String> {
+    let path = path.and_then(|it| it.canonicalize().ok());
+    let mut scripts =
+        path.iter().flat_map(|it| it.ancestors()).map(|it| it.join("scripts/measured"));
+    let Some(script) = scripts.find(|it| it.exists()) else { return Ok(String::new()) };
+    let cannot = |why: String| format!("{}: {why}", script.display());
+    let done = Command::new(&script).output().map_err(|error| cannot(error.to_string()))?;
+    let line = String::from_utf8_lossy(&done.stdout).into_owned();
+    let own = env!("MUFASA_VERSION").split_once("(commit ").map(|it| it.1.trim_end_matches(')'));
+    if !done.status.success() || !own.is_none_or(|own| line.contains(own)) {
+        return Err(cannot(format!("{line}this program is {}", env!("MUFASA_VERSION"))));
+    }
+    Ok(line + "\n")
 }
 
 /// Puts a table in the place of the one of this name. Errors: no such file, no markers.

@@ -87,6 +87,7 @@ impl End {
 pub fn run(settings: &Settings, folder: &Path, out: &mut impl Write) -> Result<End, Stopped> {
     let worlds = worlds(settings.bounds, settings.world.as_deref())?;
     document::has_place(settings.into.as_deref(), &table_name(settings.bounds))?;
+    let stamp = document::stamp(settings.into.as_deref())?;
     files::prepare(folder).map_err(cannot(folder, "written to"))?;
     let (mut end, mut reports) = (End::default(), Vec::new());
     let both = [Profile::PAPER, Profile::HARDENED];
@@ -135,7 +136,7 @@ pub fn run(settings: &Settings, folder: &Path, out: &mut impl Write) -> Result<E
     end = end.max(say_written(write(folder, &reports), out)?);
     if let Some(path) = &settings.into {
         let tables: String = reports.iter().map(ExplorationReport::markdown).collect();
-        let written = document::write(path, &table_name(settings.bounds), &tables);
+        let written = document::write(path, &table_name(settings.bounds), &(stamp + &tables));
         let written = written.map(|()| vec![path.clone()]).map_err(|error| (path.clone(), error));
         end = end.max(say_written(written, out)?);
     }

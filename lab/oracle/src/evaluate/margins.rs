@@ -59,6 +59,7 @@ struct Margin {
 pub fn run(arguments: &MarginsArguments, out: &mut impl Write) -> Ended {
     let &MarginsArguments { scenes, seed, .. } = arguments;
     document::has_place(arguments.into.as_deref(), TABLE)?;
+    let stamp = document::stamp(arguments.into.as_deref())?;
     if let Some(file) = &arguments.svg {
         files::prepare_file(file).map_err(cannot(file, "written"))?;
     }
@@ -88,8 +89,9 @@ pub fn run(arguments: &MarginsArguments, out: &mut impl Write) -> Ended {
     let table = table(&margins);
     tables::write(&table, out)?;
     if let Some(file) = &arguments.into {
-        let size = format!("`{TABLE} --scenes {scenes} --seed {seed}`:\n\n{}", table.markdown());
-        document::write(file, TABLE, &size).map_err(cannot(file, "written"))?;
+        let size = format!("`{TABLE} --scenes {scenes} --seed {seed}`:\n\n");
+        let all = format!("{stamp}{size}{}", table.markdown());
+        document::write(file, TABLE, &all).map_err(cannot(file, "written"))?;
     }
     if let Some(file) = &arguments.svg {
         let of = |axis: Axis| margins.iter().filter(move |it| it.wrong.axis == axis);
