@@ -3,6 +3,7 @@
 pub mod checks;
 mod documents;
 pub mod evidence;
+mod figures;
 mod forms;
 mod report;
 mod run;

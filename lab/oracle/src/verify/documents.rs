@@ -6,9 +6,8 @@ use std::path::Path;
 
 use mufasa_drives::pictures::escape;
 
-/// The tables of a Markdown file, at most so many.
-pub(super) fn tables(root: &Path, file: &str, up: Option<&str>, most: usize) -> String {
-    let text = fs::read_to_string(root.join(file)).unwrap_or_default();
+/// The tables of the text of a Markdown file, at most so many.
+pub(super) fn tables(text: &str, file: &str, up: Option<&str>, most: usize) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let blocks = lines.split(|it| !it.starts_with('|')).filter(|it| !it.is_empty());
     blocks.take(most).map(|rows| table(rows, file, up)).collect()
@@ -16,7 +15,7 @@ pub(super) fn tables(root: &Path, file: &str, up: Option<&str>, most: usize) -> 
 
 fn table(rows: &[&str], file: &str, up: Option<&str>) -> String {
     let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let rows = rows.iter().filter(|it| !it.starts_with("|--"));
+    let rows = rows.iter().filter(|it| it.contains(|c| !"|-: ".contains(c)));
     let cells = rows.map(|row| {
         let row = row.replace("\\|", "\u{1}");
         let row = row.trim_start_matches('|').trim_end().trim_end_matches('|');

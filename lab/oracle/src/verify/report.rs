@@ -10,28 +10,14 @@ use serde_json::Value;
 
 use super::documents;
 use super::evidence::{Case, Evidence, Outcome, Status};
+use super::figures::Record;
 use super::run::Place;
 use crate::rows::{Rows, number, text};
 
 const STYLE: &str = include_str!("report.css");
 /// Most lines of a log that a page shows.
 const SHOWN: usize = 30;
-/// The page about tests, and how its sentences with figures begin.
-const COVERAGE: &str = "docs/coverage.md";
-const STRENGTH: [&str; 5] = [
-    "Measured with: ",
-    "Requirements that code cites: ",
-    "Lines with code that tests execute: ",
-    "Conditions that tests saw true and false: ",
-    "Commit ",
-];
-/// Documents whose first table has figures.
-const FIGURES: [(&str, &str); 4] = [
-    ("docs/drives.md", "A drive, attacked: what is caught"),
-    ("docs/exploration.md", "Worlds of the protocol"),
-    ("docs/speed.md", "Times beside the best libraries"),
-    ("docs/embedded.md", "Bytes on processors of vehicles"),
-];
+const PROBLEMS: &str = "docs/known-problems.md";
 /// What lies beside the page.
 const BESIDE: [(&str, &str); 4] = [
     ("evidence.json", "all of this for programs"),
@@ -58,18 +44,20 @@ pub(super) fn page(evidence: &Evidence, place: &Place<'_>) -> String {
     let root = place.root;
     let up = place.out.strip_prefix(root).ok().map(|it| "../".repeat(it.components().count()));
     let up = up.as_deref();
+    let record = Record::new(root, up);
+    let problems = fs::read_to_string(root.join(PROBLEMS)).unwrap_or_default();
     let sections = [
         ("checks", "Checks", checks(evidence, place)),
         ("proofs", "Proofs", proofs(&place.out)),
         ("safety-case", "Safety case", documents::pictures(root, "docs/safety-case")),
         ("requirements", "Traceability", documents::matrix(root, "docs/requirements.csv")),
-        ("strength", "Strength of the tests", strength(root, up)),
+        ("strength", "Strength of the tests", record.strength()),
         (
             "findings",
             "Open findings, and rests of closed ones",
-            documents::tables(root, "docs/known-problems.md", up, 9),
+            documents::tables(&problems, PROBLEMS, up, 9),
         ),
-        ("figures", "Figures", figures(root, up)),
+        ("figures", "Figures", record.figures()),
         ("versions", "Versions", versions(evidence)),
         ("rest", "Where the rest is", rest(up)),
     ];
@@ -91,7 +79,7 @@ pub(super) fn page(evidence: &Evidence, place: &Place<'_>) -> String {
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>mufasa verify</title>\n\
          <style>\n{STYLE}</style>\n</head>\n<body class=\"{kind}\">\n{}<nav>\n{links}</nav>\n\
          {sections}</body>\n</html>\n",
-        verdict(evidence)
+        verdict(evidence, &record.old())
     )
 }
 
@@ -103,7 +91,7 @@ fn class(status: Status) -> &'static str {
     }
 }
 
-fn verdict(evidence: &Evidence) -> String {
+fn verdict(evidence: &Evidence, old: &str) -> String {
     let all = evidence.checks.len();
     let words = match evidence.worst() {
         Status::Failed => format!("Failed: {} of {all} checks", evidence.count(Status::Failed)),
@@ -120,7 +108,7 @@ fn verdict(evidence: &Evidence) -> String {
     let began = evidence.versions.get("began, UTC").and_then(Option::as_deref).unwrap_or("?");
     let [asked, commit, began] = [evidence.asked, evidence.commit.as_str(), began].map(escape);
     format!(
-        "<h1>mufasa verify</h1>\n<p class=\"verdict {}\">{words}</p>\n<ul class=\"counts\">\n{counts}</ul>\n\
+        "<h1>mufasa verify</h1>\n<p class=\"verdict {}\">{words}</p>\n<ul class=\"counts\">\n{counts}</ul>\n{old}\
          <p>Commit <code>{commit}</code>, {began} UTC; asked for: {asked}.</p>\n",
         class(evidence.worst())
     )
@@ -201,26 +189,6 @@ fn proofs(folder: &Path) -> String {
         ],
     );
     if rows.is_empty() { String::new() } else { table.html().replace("--bar:", "--share:") }
-}
-
-/// What tests execute and notice, on record.
-fn strength(root: &Path, up: Option<&str>) -> String {
-    let said = documents::lines(root, COVERAGE, &STRENGTH, up);
-    let link = documents::link(COVERAGE, COVERAGE, up);
-    if said.is_empty() { said } else { format!("<p>From {link}, on record:</p>\n{said}") }
-}
-
-/// Figures on record, a cycle of the demo, and how far assumptions may be wrong.
-fn figures(root: &Path, up: Option<&str>) -> String {
-    let table = |(file, words): (&str, &str)| {
-        let table = documents::tables(root, file, up, 1);
-        let link = documents::link(file, file, up);
-        format!("<details>\n<summary>{words}</summary>\n<p>From {link}.</p>\n{table}</details>\n")
-    };
-    let tables = FIGURES.map(table).concat();
-    format!("<p>These are on record. This run did not measure them anew.</p>\n{tables}")
-        + &documents::picture(root, "docs/demo.svg")
-        + &documents::picture(root, "docs/margins.svg")
 }
 
 fn versions(evidence: &Evidence) -> String {

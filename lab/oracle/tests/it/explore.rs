@@ -53,6 +53,12 @@ fn the_tables_of_the_page_are_those_of_a_run() {
         rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()
     };
     assert_eq!(sizes(&tables), sizes(&today));
+    let stamp = document::stamp(Some(&page)).unwrap();
+    assert!(stamp.starts_with("Measured with: commit ") && stamp.ends_with(".\n\n"), "{stamp}");
+    assert_eq!(
+        [None, Some(Path::new("/"))].map(document::stamp),
+        [(); 2].map(|()| Ok(String::new()))
+    );
 }
 
 /// H-08 and F-12: after the same events the local services stand still in the paper profile and
