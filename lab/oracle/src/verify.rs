@@ -5,6 +5,7 @@ mod documents;
 pub mod evidence;
 mod figures;
 mod forms;
+mod locations;
 mod report;
 mod run;
 
@@ -160,7 +161,8 @@ fn clear(folder: &Path, table: &[Check]) -> io::Result<()> {
 /// Writes what is complete, the checksums last.
 fn leave(evidence: &mut Evidence, table: &[Check], place: &Place<'_>) -> Result<(), Stopped> {
     evidence.complete = true;
-    let sarif = serde_json::to_string_pretty(&forms::sarif(evidence)).map_err(io::Error::from)?;
+    let sarif = serde_json::to_string_pretty(&forms::sarif(evidence, place.root))
+        .map_err(io::Error::from)?;
     let written = [
         (JUNIT, forms::junit(evidence)),
         (SARIF, sarif),

@@ -79,6 +79,12 @@ impl Check {
         };
         self.needs.iter().find(|need| !is_here(&need.name))
     }
+
+    /// The line of its row in the table of the project.
+    pub(super) fn row(&self) -> Option<usize> {
+        let row = format!("name = \"{}\"", self.name);
+        TABLE.lines().position(|line| line == row).map(|it| it + 1)
+    }
 }
 
 /// Whether there is a program of this name.

@@ -1,9 +1,12 @@
 //! The same for build servers: JUnit and SARIF.
 
+use std::path::Path;
+
 use mufasa_conform::xml_text;
 use serde_json::{Value, json};
 
 use super::evidence::{Case, Evidence, Outcome, Status};
+use super::locations;
 
 /// JUnit XML: a suite for each check. What was not run is skipped, in a release a failure.
 pub(super) fn junit(evidence: &Evidence) -> String {
@@ -49,15 +52,19 @@ fn suite(outcome: &Outcome, is_release: bool) -> (String, [usize; 3]) {
 }
 
 /// SARIF 2.1.0: a result for whatever did not pass.
-pub(super) fn sarif(evidence: &Evidence) -> Value {
+pub(super) fn sarif(evidence: &Evidence, root: &Path) -> Value {
     let rule =
         |it: &Outcome| json!({"id": it.check.name, "shortDescription": {"text": it.check.shows}});
     let results = evidence.checks.iter().flat_map(|outcome| {
         let wrong = outcome.entries().into_iter().filter(|case| case.status != Status::Passed);
         wrong.map(|case| {
+            let (file, line) = locations::of(root, &outcome.check, &case);
+            let mut place = json!({"artifactLocation": {"uri": file}});
+            if let Some(line) = line {
+                place["region"] = json!({"startLine": line});
+            }
             let is_error = case.status == Status::Failed || evidence.is_release();
             let reason = case.reason.unwrap_or_default();
-            let place = json!({"artifactLocation": {"uri": "lab/oracle/src/verify/checks.toml"}});
             json!({
                 "ruleId": outcome.check.name,
                 "level": if is_error { "error" } else { "warning" },

@@ -144,6 +144,40 @@ fn what_was_not_run_is_no_failure_but_in_a_release() {
 }
 
 #[test]
+fn what_did_not_pass_is_located_where_it_is() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let out = folder("locations");
+    let settings = Settings { out: Some(out.clone()), ..Settings::default() };
+    let fails = |name: &str, words: &str, more: &str| {
+        check(name, &format!("echo 'test {words} ... FAILED'"), "").replace("'{out}'", more)
+    };
+    let name = "what_did_not_pass_is_located_where_it_is";
+    let tests = fails("tests", &format!("verify::{name}"), "'-p', 'mufasa-oracle'");
+    let script = fails("script", "no::such_test", "'scripts/nearest'");
+    let other = fails("vectors", "no::such_test", "'--test', 'vectors'");
+    let of_tests = fails("its tests", "no::such_test", "'-p', 'mufasa-props', '--test', 'tidy'");
+    verify(&root, &[tests, script, other, of_tests], &settings);
+    let sarif: Value = serde_json::from_str(&text(&out, "results.sarif")).expect("JSON");
+    let results = sarif["runs"][0]["results"].as_array().expect("a list");
+    let places = results.iter().map(|it| &it["locations"][0]["physicalLocation"]);
+    let places = places
+        .map(|it| (it["artifactLocation"]["uri"].as_str(), it["region"]["startLine"].as_u64()));
+    let line_of = |text: &str, line: &str| {
+        let at = text.lines().position(|it| it == line).expect("it is there");
+        Some(at as u64 + 1)
+    };
+    let here = line_of(include_str!("verify.rs"), &format!("fn {name}() {{"));
+    let row = line_of(include_str!("../../src/verify/checks.toml"), "name = \"vectors\"");
+    let expected = [
+        (Some("lab/oracle/tests/it/verify.rs"), here),
+        (Some("scripts/nearest"), None),
+        (Some("lab/oracle/src/verify/checks.toml"), row),
+        (Some("props/tests/tidy/main.rs"), None),
+    ];
+    assert_eq!(places.collect::<Vec<_>>(), expected);
+}
+
+#[test]
 fn build_servers_get_the_same_counts() {
     let root = folder("forms");
     for (settings, failures, skipped, levels) in
