@@ -52,6 +52,9 @@ pub struct Settings {
     /// What was not run counts as failed.
     #[arg(long, conflicts_with_all = ["quick", "only"])]
     pub release: bool,
+    /// Also what takes hours.
+    #[arg(long, conflicts_with_all = ["quick", "only"])]
+    pub night: bool,
     /// Only the check of this name; may be given again.
     #[arg(long, value_name = "NAME", conflicts_with = "quick")]
     pub only: Vec<String>,
@@ -103,7 +106,7 @@ pub fn run(
     let (start, mut before) = (Instant::now(), 0);
     for check in table {
         let outcome = if let Some(why) = settings.leaves_out(check) {
-            Outcome::not_run(check, why.to_owned())
+            Outcome::not_run(check, why)
         } else {
             let meanwhile = |taken: u64| {
                 let done = before + taken.min(check.seconds);
@@ -218,18 +221,23 @@ impl Settings {
         match self {
             Self { release: true, .. } => RELEASE,
             Self { quick: true, .. } => "quick",
+            Self { night: true, .. } => "night",
             Self { only, .. } if only.is_empty() => "all",
             Self { .. } => "some",
         }
     }
 
     /// Why a check is not asked for, if it is not.
-    fn leaves_out(&self, check: &Check) -> Option<&'static str> {
+    fn leaves_out(&self, check: &Check) -> Option<String> {
         if self.quick && !check.quick {
-            return Some("--quick leaves it out");
+            return Some("--quick leaves it out".to_owned());
         }
-        (!self.only.is_empty() && !self.only.contains(&check.name))
-            .then_some("--only leaves it out")
+        if !self.only.is_empty() {
+            let is_named = self.only.contains(&check.name);
+            return (!is_named).then(|| "--only leaves it out".to_owned());
+        }
+        let call = check.command.join(" ");
+        (check.night && !self.night).then(|| format!("it takes hours; --night runs it: {call}"))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::env::{self, consts::EXE_SUFFIX};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,9 @@ pub struct Check {
     /// Whether it belongs to `--quick`.
     #[serde(default)]
     pub quick: bool,
+    /// Whether it takes so long that only `--night` or `--only` runs it.
+    #[serde(default)]
+    pub night: bool,
     /// What has to be here.
     #[serde(default)]
     pub needs: Vec<Need>,
@@ -41,6 +45,9 @@ pub struct Need {
     pub name: String,
     /// What brings it.
     pub package: String,
+    /// A command that succeeds where it is here, if its name does not tell.
+    #[serde(default)]
+    pub asks: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -73,17 +80,28 @@ impl Check {
 
     /// What it needs and is not here.
     pub(super) fn missing(&self, root: &Path) -> Option<&Need> {
-        let is_here = |name: &str| match name.split_once('/') {
-            Some(_) => root.join(name).exists(),
-            None => is_on_path(name),
-        };
-        self.needs.iter().find(|need| !is_here(&need.name))
+        self.needs.iter().find(|need| !need.is_here(root))
     }
 
     /// The line of its row in the table of the project.
     pub(super) fn row(&self) -> Option<usize> {
         let row = format!("name = \"{}\"", self.name);
         TABLE.lines().position(|line| line == row).map(|it| it + 1)
+    }
+}
+
+impl Need {
+    fn is_here(&self, root: &Path) -> bool {
+        match self.asks.split_first() {
+            Some((program, arguments)) => {
+                let mut command = Command::new(program);
+                command.args(arguments).current_dir(root).stdin(Stdio::null());
+                let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
+                status.is_ok_and(|it| it.success())
+            }
+            None if self.name.contains('/') => root.join(&self.name).exists(),
+            None => is_on_path(&self.name),
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use super::checks::Check;
 pub(super) const RELEASE: &str = "release";
 
 /// The tools on whose word a check counts, and how they say their version.
-const TOOLS: [(&str, &[&str]); 12] = [
+const TOOLS: [(&str, &[&str]); 15] = [
     ("began, UTC", &["date", "-u", "+%Y-%m-%d %H:%M"]),
     ("system", &["uname", "-srm"]),
     ("rustc", &["rustc", "--version"]),
@@ -26,6 +26,9 @@ const TOOLS: [(&str, &[&str]); 12] = [
     ("qemu", &["qemu-system-arm", "--version"]),
     ("python", &["python3", "--version"]),
     ("node", &["node", "--version"]),
+    ("miri", &["cargo", "+nightly", "miri", "--version"]),
+    ("cargo-mutants", &["cargo-mutants", "mutants", "--version"]),
+    ("cargo-deny", &["cargo-deny", "--version"]),
 ];
 
 /// How a check or a test of it ended; the worst comes last.
@@ -47,7 +50,7 @@ pub enum Status {
 pub struct Evidence {
     /// Whether it came to its end.
     pub complete: bool,
-    /// What was asked for: `quick`, `all`, `some` or `release`.
+    /// What was asked for: `quick`, `all`, `night`, `some` or `release`.
     pub asked: &'static str,
     /// The commit of the checkout, `with changes` where files differ from it.
     pub commit: String,

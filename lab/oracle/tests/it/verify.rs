@@ -34,6 +34,13 @@ fn bad() -> String {
     check("a bad test", script, "")
 }
 
+/// Takes long, and needs what only a command can tell.
+fn long(asked: &str) -> String {
+    let needs =
+        format!("needs = [{{ name = 'a network', package = 'a cable', asks = ['{asked}'] }}]");
+    check("long", "echo 'test one ... ok'", &format!("night = true\n{needs}"))
+}
+
 /// Its tool is not here.
 fn missing() -> String {
     let needs = "needs = [{ name = 'no-such-engine', package = 'the package of engines' }]";
@@ -141,6 +148,23 @@ fn what_was_not_run_is_no_failure_but_in_a_release() {
     let only = |name: &str| Settings { only: vec![name.to_owned()], ..Settings::default() };
     assert_eq!(code(&[good(), bad()], &only("good tests")), 0);
     assert_eq!(code(&[good(), bad()], &only("a bad test")), 1);
+    let night = |release| Settings { night: true, release, ..Settings::default() };
+    assert_eq!(
+        [usual, release(), night(true)].map(|it| code(&[good(), long("true")], &it)),
+        [0, 4, 0]
+    );
+    assert_eq!(code(&[good(), long("false")], &night(true)), 4);
+    assert_eq!(code(&[long("true")], &night(false)), 0);
+    assert_eq!(code(&[long("true")], &only("long")), 0);
+}
+
+#[test]
+fn what_takes_hours_is_named_with_its_command() {
+    let (_, place) = verify(&folder("night"), &[good(), long("true")], &release());
+    let reason = "it takes hours; --night runs it: sh -c echo &#39;test one ... ok&#39; {out}";
+    let reason = reason.replace("&#39;", "'");
+    assert_eq!(evidence(&place)["checks"][1]["reason"], reason);
+    assert!(text(&place, "report.html").contains("it takes hours; --night runs it: sh -c echo"));
 }
 
 #[test]
