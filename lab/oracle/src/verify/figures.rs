@@ -21,13 +21,14 @@ const STRENGTH: [&str; 5] = [
     "Conditions that tests saw true and false: ",
     "Commit ",
 ];
+const MARGINS: &str = "docs/safety-manual.md";
 /// Documents, and the place in each whose first table has figures.
 const FIGURES: [(&str, &str, &str); 5] = [
     ("docs/drives.md", "scripts/availability", "Clean cycles of recorded drives that are accepted"),
     ("docs/exploration.md", "mufasa explore --bounds small", "Worlds of the protocol"),
     ("docs/speed.md", "race", "Times beside the best libraries"),
     ("docs/embedded.md", "embedded", "Bytes on processors of vehicles"),
-    ("docs/safety-manual.md", "mufasa evaluate margins", "How far assumptions may be wrong"),
+    (MARGINS, "mufasa evaluate margins", "How far assumptions may be wrong"),
 ];
 /// A drive that a test drives anew, so that its table has no stamp.
 const DEMO: (&str, &str) = ("docs/drives.md", "mufasa demo");
@@ -94,12 +95,18 @@ impl<'r> Record<'r> {
     pub(super) fn figures(&self) -> String {
         let tables =
             FIGURES.map(|(file, place, words)| self.folded(file, place, words, true)).concat();
-        let demo = self.folded(DEMO.0, DEMO.1, "A drive, attacked: what is caught", false);
+        let demo = self.folded(
+            DEMO.0,
+            DEMO.1,
+            "A drive, attacked: what is caught; a test keeps it",
+            false,
+        );
         format!(
             "<p>These are on record. This run did not measure them anew.</p>\n<details open=\"open\">\n\
              <summary>Of which commit each table is</summary>\n{}</details>\n{tables}{demo}",
             list(self.rows.iter())
         ) + &documents::picture(self.root, "docs/demo.svg")
+            + &self.stamps(MARGINS, "")
             + &documents::picture(self.root, "docs/margins.svg")
     }
 
