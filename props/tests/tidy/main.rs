@@ -162,7 +162,8 @@ fn every_file_that_is_named_exists() {
 fn the_readme_has_the_figures_of_coverage() {
     let tree = Tree::here();
     let [readme, page] = ["README.md", "docs/coverage.md"].map(|it| tree.0[it].as_str());
-    let said = readme.split_once("Tests execute ").and_then(|it| it.1.split_once(" (`scripts/coverage`"));
+    let said =
+        readme.split_once("Tests execute ").and_then(|it| it.1.split_once(" (`scripts/coverage`"));
     let is_figure = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
     let figures: Vec<&str> =
         said.unwrap_or_default().0.split([' ', '\n', ',']).filter(is_figure).collect();
