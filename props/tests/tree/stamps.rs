@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Of each page with stamps the sources that its tables depend on.
-pub const SOURCES: [(&str, &str); 12] = [
+pub const SOURCES: [(&str, &str); 11] = [
     ("docs/configuration.md", "impl/src benches/src"),
     ("docs/conformance.md", "model/src lab/conform/src examples/conformance"),
     // The other tests of props execute no code of a vehicle.
@@ -13,7 +13,6 @@ pub const SOURCES: [(&str, &str); 12] = [
     ("docs/embedded.md", "impl/src capi/src benches/src"),
     ("docs/evaluation.md", "impl/src lab/sim/src"),
     ("docs/exploration.md", EXPLORED),
-    ("docs/link-messages.md", "impl/src lab/link/src/message lab/drives/src"),
     ("docs/link.md", "impl/src lab/link/src"),
     ("docs/safety-manual.md", "impl/src lab/sim/src"),
     ("docs/speed.md", "impl/src benches/src"),
