@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use mufasa::cycle::{check, check_indexed, check_with};
-use mufasa::input::cycle::Cycle as ImplCycle;
+use mufasa::input::cycle::{self as twin, Cycle as ImplCycle, Route};
 use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
@@ -65,6 +65,15 @@ fn an_index_changes_no_answer() {
                         (report.failed_stage, report.input, report.stages.map(without_segment))
                     };
                     assert_eq!(plain.map(parts), indexed.map(parts));
+                    // That of another route is none.
+                    let by = -50_f64.copysign(cycle.route.cross_sections[0].x);
+                    let shift =
+                        |it: &twin::CrossSection| twin::CrossSection { x: it.x + by, ..*it };
+                    let moved: Vec<_> = cycle.route.cross_sections.iter().map(shift).collect();
+                    let moved = Route { cross_sections: &moved, ..cycle.route };
+                    let mut blocks = vec![Block::default(); Block::needed(stations)];
+                    let index = RouteIndex::new(moved, &mut blocks).expect("nearer to the origin");
+                    assert_eq!(check_indexed(cycle, &index, scratch), plain);
                 } else {
                     assert!(plain.is_err());
                 }
