@@ -1,8 +1,9 @@
 //! What a monitor is refused for because its cycles may be late (`spec/4-arithmetic.md#steps`).
 
+use std::cell::RefCell;
 use std::time::Duration;
 
-use mufasa::cycle::steps::{Counts, most_steps};
+use mufasa::cycle::steps::{Counts, Steps, most_steps};
 use mufasa::input::cycle::{CrossSection, Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
@@ -10,7 +11,10 @@ use mufasa::monitor::{Decision, GridMap, Inputs, Monitor, MonitorError, Settings
 use mufasa::offloading::requester::Groups;
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration;
+use mufasa_props::differential::runner;
 use mufasa_props::lent::Lent;
+use proptest::prelude::{Just, prop_oneof};
+use proptest::{prop_assert, prop_assert_eq};
 
 use super::kit::{MS, Station, World, at, road, route};
 
@@ -215,4 +219,93 @@ fn problem(monitor: &mut Monitor<'_>, inputs: &Inputs<'_>) -> Option<InvalidInpu
         Decision::Unsafe { report: Err(problem), .. } => Some(problem),
         Decision::Unsafe { report: Ok(_), .. } | Decision::Safe { .. } => None,
     }
+}
+
+/// IMPL-10: each part beside the text. Only without objects the fail-safe rule has fewer than the table says: no motion.
+#[test]
+fn the_steps_of_a_cycle_are_those_of_the_table() {
+    let few = |most: u32| prop_oneof![1 => Just(0), 3 => 0..=most];
+    let lists = (few(1024), few(1024), few(2048), 0..=4_u32, few(8192), few(65_536));
+    let rows = (few(100_000), few(3000), few(10_000), few(1_000_000));
+    let cases = (
+        lists,
+        rows,
+        0..=64_i64,
+        0..=16_i64,
+        prop_oneof![Just(0), Just(i64::MAX), 0..=1_000_000_i64],
+    );
+    let saw = RefCell::new([0_u32; 4]);
+    let result = runner().run(&cases, |(lists, rows, n, miss_budget, work_limit)| {
+        let (tracks, points, detections, lists, cross_sections, stations) = lists;
+        let (places, disk_rows, cav_rows, way_rows) = rows;
+        let miss_budget = miss_budget.min(tracks.into());
+        let counts = Counts {
+            tracks,
+            points,
+            detections,
+            lists,
+            cross_sections,
+            stations,
+            places,
+            disk_rows,
+            cav_rows,
+            way_rows,
+        };
+        let parameters = Parameters { n, miss_budget, work_limit, ..Parameters::default() };
+        let found = most_steps(&counts, &parameters);
+        let [t, p, d, s, k, stations] =
+            [tracks, points, detections, cross_sections, places, stations].map(u128::from);
+        let [u, q, r, f] = [
+            d * u128::from(lists),
+            disk_rows.into(),
+            (disk_rows + cav_rows).into(),
+            way_rows.into(),
+        ];
+        let whole = |it: i64| u128::try_from(it).expect("not below 0");
+        let [n, spare, limit] = [n, miss_budget, work_limit].map(whole);
+        let columns = d + spare;
+        let (m, b) = (t.max(columns), r / 57 + 3);
+        let w = (t.min(columns).pow(2) * m).min(limit);
+        let v = if q == 0 { 0 } else { (p + k) * (8 * r * b + n * (340 + 20 * q)) + 200 * f * b };
+        let table = [
+            64 * (128 + 6 * stations),
+            64 + 16 * s,
+            64 * t + t * t + 32 * p + 128 * d,
+            64 * (t + d + u) + 3 * t * (d + u) + 64 * (m + (w * m).isqrt()) + 3 * w,
+            64 * (p + k) + 32 * p * s + 2 * k * s,
+            64 * p + 20 * p * t,
+            64 * p + 20 * p * d,
+            v,
+            if q == 0 { 0 } else { v + 340 * n * (p + k) },
+        ];
+        let Steps {
+            messages,
+            route,
+            input,
+            stages: [i, ii, iii, iv, of_v],
+            without_detections,
+            fail_safe,
+        } = found;
+        let steps = [messages, route, input, i, ii, iii, iv, of_v, without_detections];
+        prop_assert_eq!(steps.map(u128::from), table);
+        let motion = 1280 + 768 * (p + k) + 32 * s;
+        let rule = 64 * (p + k) + 10 * k * s + 4 * d * (t + d);
+        let fail_safe = u128::from(fail_safe);
+        let objects = u128::from(t + d > 0);
+        let most = if k == 0 { 0 } else { rule + objects * motion + limit };
+        prop_assert!(fail_safe <= most && (limit > 0 || fail_safe == most), "{fail_safe}, {most}");
+        let [messages, route, input, i, ii, iii, iv, v, without] = table;
+        let all = messages + route + input + ii + iii + v + (i + iv).max(without) + fail_safe;
+        prop_assert_eq!(u128::from(found.total()), all);
+        let is = [
+            t + d == 0 && k > 0,
+            w == limit && w > 0,
+            without > i + iv,
+            fail_safe == most && limit > 0,
+        ];
+        saw.borrow_mut().iter_mut().zip(is).for_each(|(count, it)| *count += u32::from(it));
+        Ok(())
+    });
+    assert_eq!(result, Ok(()));
+    assert!(saw.borrow().iter().all(|it| *it >= 10), "{saw:?}");
 }
