@@ -67,6 +67,9 @@ fn a_clean_drive_gets_no_advice() {
     assert_eq!(told(lossy, |_| {}), []);
     // Cars cut in and leave, one every two seconds, 10 m nearer or farther.
     assert_eq!(drive(|it| it.gap += if it.now_ns / (2000 * MS) % 2 == 0 { 10.0 } else { 0.0 }), []);
+    // A lead that gets away while no cycle comes for 0.8 s, again and again.
+    let pauses = (0..50).map(|i| (1200 * (i / 5) + 100 * (i % 5)) * MS);
+    assert_eq!(told(pauses, |it| it.gap += (ns(it) / 1.2e9).floor() * 4.0), []);
     // Nothing is compared with what may stand, nor with a car beside the way or one that crosses.
     let slow = |it: &mut Given| {
         (it.world.ego.speed, it.lead_speed, it.gap) = (1.0, 1.0, GAP + 4.5);
