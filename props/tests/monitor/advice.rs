@@ -75,6 +75,10 @@ fn a_clean_drive_gets_no_advice() {
         (it.world.ego.speed, it.lead_speed, it.gap) = (1.0, 1.0, GAP + 4.5);
     };
     assert_eq!(drive(slow), []);
+    let lead_slow = |it: &mut Given| (it.lead_speed, it.gap) = (2.0, GAP + 4.5);
+    assert_eq!(drive(lead_slow), drive(|it| it.lead_speed = 2.0));
+    let cav_slow = |it: &mut Given| (it.world.ego.speed, it.gap) = (2.0, GAP + 4.5);
+    assert_eq!(drive(cav_slow), drive(|it| it.world.ego.speed = 2.0));
     let beside =
         |it: &mut Given| it.world.add([it.world.ego.x + 22.0, 2.0], [1.0, 0.0], [5.0, 0.0]);
     assert_eq!(drive(beside), []);
