@@ -160,4 +160,15 @@ fn a_gap_that_the_detection_ahead_contradicts_is_told_once() {
         [Advice::GapTooShort]
     );
     assert_eq!(drive(|it| it.world.ego.center_offset = 0.0), [Advice::GapTooShort]);
+    // "By the same" is by that of the first of these cycles, not of one before a cycle that agreed.
+    let anew = |it: &mut Given| {
+        it.gap = match it.now_ns / (100 * MS) {
+            0 => GAP + 1.2,
+            1 => GAP,
+            2 => GAP + 1.5,
+            odd if odd % 2 == 1 => GAP + 1.25,
+            _ => GAP + 1.75,
+        };
+    };
+    assert_eq!(drive(anew), [Advice::GapTooLong]);
 }
