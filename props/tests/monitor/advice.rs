@@ -165,9 +165,9 @@ fn a_gap_that_the_detection_ahead_contradicts_is_told_once() {
         it.gap = match it.now_ns / (100 * MS) {
             0 => GAP + 1.2,
             1 => GAP,
-            2 => GAP + 1.5,
-            odd if odd % 2 == 1 => GAP + 1.25,
-            _ => GAP + 1.75,
+            2 => GAP + 1.4,
+            odd if odd % 2 == 1 => GAP + 1.15,
+            _ => GAP + 1.65,
         };
     };
     assert_eq!(drive(anew), [Advice::GapTooLong]);
