@@ -56,7 +56,7 @@ pub fn missing(missing: &[Missing]) -> String {
 pub fn markdown(lines: &[Claim]) -> String {
     let mut text =
         format!("{}\nClaims, each by the answer that counts: {}.\n", engines(lines), counts(lines));
-    text.push_str("\n<details><summary>Every line</summary>\n\n");
+    text.push_str("\n<details open><summary>Every line</summary>\n\n");
     text.push_str("| id | statement | engine | domain | verdict | s | fails when |\n");
     text.push_str("|---|---|---|---|---|--:|---|\n");
     for line in lines {
