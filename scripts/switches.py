@@ -1,4 +1,5 @@
-"""Many changes of Rust sources at once, each behind a switch: `MUFASA_CHANGE=12` makes the twelfth. For scripts/mutants-code."""
+"""Many changes of Rust sources at once, each behind a switch: `MUFASA_CHANGE=12` makes the twelfth, and `MUFASA_REACHED` names a file
+for the numbers of those that are reached. For scripts/mutants-code."""
 
 import sys
 from collections import defaultdict
@@ -9,12 +10,19 @@ from tree_sitter import Language, Parser
 
 PARSER = Parser(Language(tree_sitter_rust.language()))
 SWITCH = """
-/// Which change was chosen.
+/// Which change was chosen, and a file for the numbers of those that a test comes to.
 mod change {
     extern crate std;
-    static CHOSEN: std::sync::LazyLock<Option<u32>> =
-        std::sync::LazyLock::new(|| std::env::var("MUFASA_CHANGE").ok()?.parse().ok());
+    use std::{env::var, fs::OpenOptions, io::Write, option::Option, string::ToString, sync::LazyLock};
+    use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
+    static CHOSEN: LazyLock<Option<u32>> = LazyLock::new(|| var("MUFASA_CHANGE").ok()?.parse().ok());
+    static REACHED: LazyLock<Option<std::string::String>> = LazyLock::new(|| var("MUFASA_REACHED").ok());
+    static SEEN: [AtomicBool; 20_000] = [const { AtomicBool::new(false) }; 20_000];
     pub fn is(number: u32) -> bool {
+        if let Some(file) = &*REACHED && !SEEN[number as usize].swap(true, Relaxed) {
+            let mut file = OpenOptions::new().create(true).append(true).open(file).unwrap();
+            file.write_all((number.to_string() + "\n").as_bytes()).unwrap();
+        }
         *CHOSEN == Some(number)
     }
 }
