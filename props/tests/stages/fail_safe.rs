@@ -1,10 +1,16 @@
 //! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`): H-14.8, H-14.41,
 //! SEEN-05, SEEN-14.
 
+use mufasa::cycle::ValidCycle;
+use mufasa::input::cycle::Cycle as ImplCycle;
+use mufasa::input::profile::HardenedRule;
+use mufasa::input::scratch::Scratch;
+use mufasa::report as twin;
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Lead, Profile, Track, TrackList};
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
+use mufasa_props::bridge::with_impl;
 use mufasa_props::differential::{agree, cases, conforming, hold, near_threshold};
 use mufasa_props::strategy::base::Frame;
 use mufasa_props::strategy::draw::Draw;
@@ -106,6 +112,47 @@ fn items_that_are_not_taken() {
     cycle.detections = Some(list(0, vec![person]));
     cycle.tracks = Some(TrackList { stamp_ns: cycle.now_ns, items: vec![track(frame, person, 1)] });
     assert_bears(cycle);
+}
+
+/// MARGIN-12, H-14.46: a track as fast as `v_object` is too close to call, and nothing is between the CAV and the lead. In a
+/// cycle the gap is told; the stage alone tells what is too close to call, of H-14 only.
+#[test]
+fn what_is_too_close_to_call_is_told_before_the_gap_by_the_stage_alone() {
+    let (frame, mut cycle) = planned();
+    let (seen, list) = ((30.0, 40.0), lists(frame, cycle.now_ns));
+    cycle.detection_history = [300, 500].map(|ms| list(ms, vec![seen])).to_vec();
+    cycle.detections = Some(list(0, vec![seen]));
+    let vx = cycle.parameters.v_object;
+    let items = vec![Track { vx, ..track(frame, seen, 1) }];
+    cycle.tracks = Some(TrackList { stamp_ns: cycle.now_ns, items });
+    assert_eq!(rules_of_iv(&cycle), [twin::Rule::Ambiguous, twin::Rule::Ambiguous].map(Some));
+    cycle.lead = Some(Lead { stamp_ns: cycle.now_ns, gap: 0.0, speed: 0.0 });
+    assert_eq!(rules_of_iv(&cycle), [twin::Rule::Gap, twin::Rule::Ambiguous].map(Some));
+    with_impl(&cycle, |cycle, scratch| {
+        let profile = cycle.profile.without(HardenedRule::H14);
+        let cycle = ImplCycle { profile, ..*cycle };
+        assert_eq!(rule_of_iv_alone(&cycle, scratch), Some(twin::Rule::Gap));
+        let cycle = ImplCycle { lead: None, ..cycle };
+        assert_eq!(rule_of_iv_alone(&cycle, scratch), None);
+    });
+}
+
+/// The rule by which stage iv fails, in the cycle and alone.
+fn rules_of_iv(cycle: &Cycle) -> [Option<twin::Rule>; 2] {
+    with_impl(cycle, |cycle, scratch| {
+        let report = mufasa::cycle::check(cycle, scratch).expect("valid");
+        let [.., iv, _] = report.stages;
+        [rule(iv), rule_of_iv_alone(cycle, scratch)]
+    })
+}
+
+fn rule_of_iv_alone(cycle: &ImplCycle<'_>, scratch: &mut Scratch<'_>) -> Option<twin::Rule> {
+    let valid = ValidCycle::new(cycle, None, scratch).expect("valid");
+    rule(valid.stage(twin::Stage::Iv, scratch))
+}
+
+fn rule(outcome: twin::Outcome) -> Option<twin::Rule> {
+    if let twin::Outcome::Failed(witness) = outcome { Some(witness.rule) } else { None }
 }
 
 /// A cycle of `PlanRemote`, and where it is.

@@ -14,6 +14,7 @@ mod input;
 mod laws;
 mod lies;
 mod map_validation;
+mod own;
 mod peers;
 mod precheck;
 mod readings;
