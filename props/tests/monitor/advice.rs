@@ -145,6 +145,15 @@ fn a_loop_without_ticks_is_told_once() {
 fn a_speed_of_the_lead_that_its_gap_contradicts_is_told_once() {
     assert_eq!(drive(|it| it.lead_speed *= 3.6), [Advice::LeadSpeed]);
     assert_eq!(drive(|it| it.lead_speed = 0.0), [Advice::LeadSpeed]);
+    // Two windows are not enough: the first second of a lead agrees.
+    let two = |it: &mut Given| {
+        it.lead_speed = if (1050..3050).contains(&(it.now_ns / MS)) { 0.0 } else { 5.0 };
+    };
+    assert_eq!(drive(two), []);
+    let three = |it: &mut Given| {
+        it.lead_speed = if (1050..4050).contains(&(it.now_ns / MS)) { 0.0 } else { 5.0 };
+    };
+    assert_eq!(drive(three), [Advice::LeadSpeed]);
     // Nothing is told of a lead that touches the CAV.
     assert_eq!(drive(|it| (it.gap, it.lead_speed) = (0.0, 20.0)), []);
 }

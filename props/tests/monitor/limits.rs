@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use mufasa::input::cycle::{Detection, Ego, Route};
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::monitor::{Decision, Gap, Inputs, Message, Monitor, MonitorError, Settings};
 use mufasa::offloading::requester::{Group, Groups, RequesterError};
 use mufasa::report::{InvalidInput, Problem};
@@ -34,7 +34,7 @@ fn a_dt_max_that_is_not_above_the_period_is_refused() {
     assert_eq!(refused(Settings::new(Duration::MAX)).0, forever);
 }
 
-/// MON-27: equality is refused, in the hardened profile alone.
+/// MON-27: equality is refused, in the hardened profile alone, and in a study with one of the two rules that reckon the way to stop.
 #[test]
 fn a_tau_that_is_not_above_the_period_is_refused() {
     let period = Duration::from_millis(100);
@@ -50,6 +50,14 @@ fn a_tau_that_is_not_above_the_period_is_refused() {
         assert!(Buffers::new(16, 40).monitor(with(Profile::PAPER, tau)).is_ok());
     }
     assert!(Buffers::new(16, 40).monitor(with(Profile::HARDENED, 0.1_f64.next_up())).is_ok());
+    let [without_h04, without_h14] =
+        [HardenedRule::H04, HardenedRule::H14].map(|rule| Profile::HARDENED.without(rule));
+    for profile in [without_h04, without_h14] {
+        let tau = 0.1;
+        assert_eq!(refused(with(profile, tau)).0, MonitorError::TauNotAbovePeriod { tau, period });
+    }
+    let neither = without_h04.without(HardenedRule::H14);
+    assert!(Buffers::new(16, 40).monitor(with(neither, 0.1)).is_ok());
 }
 
 /// MON-23, MON-29: "or a parameter outside its domain".
