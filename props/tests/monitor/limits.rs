@@ -60,6 +60,22 @@ fn a_tau_that_is_not_above_the_period_is_refused() {
     assert!(Buffers::new(16, 40).monitor(with(neither, 0.1)).is_ok());
 }
 
+/// IMPL-11: places count with each of the two rules that look at them, and without both not.
+#[test]
+fn places_count_where_a_rule_looks_at_them() {
+    let check_time = Duration::ZERO;
+    let steps =
+        |profile| match (Settings { profile, check_time, ..settings() }).check_lists(8, 8, 8, 8) {
+            Err(MonitorError::TooSlow { steps, .. }) => steps,
+            other => panic!("{other:?}"),
+        };
+    let [without_h04, without_h14] =
+        [HardenedRule::H04, HardenedRule::H14].map(|rule| Profile::HARDENED.without(rule));
+    let all = steps(Profile::HARDENED);
+    assert_eq!([without_h04, without_h14].map(steps), [all; 2]);
+    assert!(steps(without_h04.without(HardenedRule::H14)) < all);
+}
+
 /// MON-23, MON-29: "or a parameter outside its domain".
 #[test]
 fn parameters_outside_of_their_domain_are_refused() {
