@@ -65,7 +65,8 @@ fn too_much(cycle: &Cycle) -> Option<i64> {
     witness.compared[0].to_string().parse().ok()
 }
 
-/// H-14.42: of a path that may have more than 4096 places the implementation asks each place by itself.
+/// H-14.42: of a path that may have more than 4096 places the implementation asks each place by itself. From point to point it
+/// may have five.
 #[test]
 fn beside_a_path_that_may_have_thousands_of_places() {
     let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
@@ -75,10 +76,13 @@ fn beside_a_path_that_may_have_thousands_of_places() {
         let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
         assert_eq!(conforming(&cycle, &exact, &strict), Ok(()));
         let Ok(report) = exact else { continue };
+        if cycle.trajectory.is_none_or(|it| it.points.len() < 1000) {
+            continue;
+        }
         safe += u32::from(report.failed_stage.is_none());
         unsafe_ += u32::from(report.witness().is_some_and(|it| it.rule == Rule::FailSafe));
     }
-    assert!(safe > 15 && unsafe_ > 6, "{safe} {unsafe_}");
+    assert!(safe > 20 && unsafe_ > 8, "{safe} {unsafe_}");
 }
 
 /// H-14.51: twenty detections without a track may come from the own origin of a confirmed track, or not. An implementation

@@ -62,13 +62,14 @@ pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
     cycle
 }
 
-/// An object beside a path of a thousand points, which may have more than 4096 places.
+/// An object beside a path of a thousand points, which may have more than 4096 places; no limit of work decides.
 ///
 /// # Panics
 /// Without an aim of that name.
 pub fn beside_many_points(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = scene(draw, profile);
     shape::divide(&mut cycle);
+    cycle.parameters.work_limit = i64::MAX;
     let aim = AIMS.iter().position(|(name, _)| *name == "beside");
     decide(draw, &mut cycle, aim.expect("an aim"));
     cycle

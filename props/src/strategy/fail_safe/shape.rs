@@ -29,21 +29,22 @@ fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
     &mut cycle.trajectory.get_or_insert_with(empty).points
 }
 
-/// Cuts the trajectory at `s_stop`, and divides each way between two points into equal parts, about 1000 in all.
+/// Cuts the trajectory at `s_stop`, and divides its ways between two points into about equal parts, 1000 in all.
 pub fn divide(cycle: &mut Cycle) {
     let (s_stop, Frame { x, y, .. }) = (base::s_stop(cycle), frame(cycle));
     let points = points(cycle);
     points.retain(|point| (point.x - x).hypot(point.y - y) < s_stop);
-    let parts = 1000 / points.len().max(1);
-    let between = |[from, to]: [&TrajectoryPoint; 2], part: usize| {
-        let share = part as f64 / parts as f64;
+    let between = |[from, to]: [&TrajectoryPoint; 2], share: f64| {
         let (x, y) = (from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
         let t_ns = from.t_ns + base::to_ns(share * base::seconds(to.t_ns - from.t_ns));
         TrajectoryPoint { t_ns, x, y, ..from.clone() }
     };
     let ways: Vec<_> = points.windows(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
-    let divided =
-        ways.iter().flat_map(|[from, to]| (0..parts).map(move |part| between([from, to], part)));
+    let first = |way: usize| 1000 * way / ways.len();
+    let divided = ways.iter().enumerate().flat_map(|(way, [from, to])| {
+        let parts = first(way + 1) - first(way);
+        (0..parts).map(move |part| between([from, to], part as f64 / parts as f64))
+    });
     let last = points.last().cloned();
     *points = divided.chain(last).collect();
 }
