@@ -91,6 +91,29 @@ fn the_recommended_lists_are_in_time_at_30_metres_a_second() {
     assert!(Duration::from_nanos(ps / 1000) <= settings.check_time, "{ps} ps, {full:?}");
 }
 
+/// IMPL-13, H-14.7, H-14.60: behind a short plan places count up to where the CAV stops, and of a plan that goes to and fro up
+/// to the greatest length.
+#[test]
+fn no_places_count_behind_the_end_of_the_path() {
+    let (world, road, bits) = (World::at(0), road(), [0; 8]);
+    let places = |speed: f64, at: &dyn Fn(i32) -> [f64; 2], count: i32| {
+        let point = |i: i32| {
+            let ([x, y], t_ns) = (at(i), i64::from(i) * 50 * MS);
+            TrajectoryPoint { t_ns, x: world.ego.x + x, y: world.ego.y + y, cos: 1.0, sin: 0.0 }
+        };
+        let points: Vec<_> = (0..count).map(point).collect();
+        let ego = Ego { speed, ..world.ego };
+        Counts::of(&Cycle { ego, ..alone(&world, &road, &points, grid(0.2, &bits)) }).places
+    };
+    let Parameters { tau, a_max, a_b, .. } = Parameters::default();
+    let (v_tau, to_stop) = (30.0 + a_max * tau, |v: f64| v * v / (2.0 * a_b));
+    let s_stop = 30.0 * tau + a_max * tau * tau / 2.0 + to_stop(v_tau);
+    let straight = places(30.0, &|i| [f64::from(i), 0.0], 2);
+    assert!(f64::from(straight) < 4.0 * s_stop + 20.0, "{straight} for {s_stop} m");
+    let to_and_fro = places(1.0, &|i| [0.15, 0.8 * f64::from(i % 2)], 1000);
+    assert!(to_and_fro < 60, "{to_and_fro}");
+}
+
 fn grid(resolution: f64, bits: &[u8; 8]) -> Grid<'_> {
     let (width, height) = (8, 8);
     let (x, y, cos, sin) = (0.0, 0.0, 1.0, 0.0);

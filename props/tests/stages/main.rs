@@ -15,6 +15,7 @@ mod laws;
 mod lies;
 mod map_validation;
 mod own;
+mod path;
 mod peers;
 mod precheck;
 mod readings;

@@ -1,0 +1,194 @@
+//! Paths that few cycles have, where quick answers of the implementation end (`spec/hardened/H-14.md#requirements-the-path`):
+//! H-14.1, H-14.7, H-14.12, H-14.13, H-14.15, H-14.42, H-14.62.
+
+use mufasa_model::cycle::check;
+use mufasa_model::input::cycle::{
+    Cycle, DetectionList, Ego, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
+};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::report::{Reading, Rule};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_props::bridge::check_impl;
+use mufasa_props::conformance::conforms;
+use mufasa_props::differential::conforming;
+use mufasa_props::strategy::base;
+use mufasa_props::strategy::draw::Draw;
+
+/// x, y, and the sine of the heading.
+type Point = (f64, f64, f64);
+
+/// A CAV at the origin that drives along x on a wide road, on a plan of these points, one each so many ns.
+fn plan(speed: f64, [length, width]: [f64; 2], dt_ns: i64, points: &[Point]) -> Cycle {
+    let draw = &mut Draw::new(&[]);
+    let frame = base::Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    let cycle = base::cycle(draw, frame, Profile::HARDENED, Configuration::PlanRemote);
+    let stamp_ns = cycle.now_ns;
+    let points = points.iter().zip(0..).map(|(&(x, y, sin), number)| {
+        let (t_ns, cos) = (stamp_ns + number * dt_ns, (1.0 - sin * sin).sqrt());
+        TrajectoryPoint { t_ns, x, y, cos, sin }
+    });
+    let ego = Ego { speed, length, width, center_offset: 0.0, ..cycle.ego.clone() };
+    // No other stage looks at objects.
+    let parameters = Parameters {
+        theta_map: 2.0,
+        theta_obj: 1e-3,
+        safety_time: 0.0,
+        work_limit: i64::MAX,
+        ..Parameters::default()
+    };
+    let trajectory = Some(Trajectory { stamp_ns, points: points.collect() });
+    let tracks = Some(TrackList { stamp_ns, items: Vec::new() });
+    let detections = Some(DetectionList { stamp_ns, items: Vec::new() });
+    let route = base::road(frame, 20.0);
+    Cycle { ego, parameters, trajectory, tracks, detections, route, ..cycle }
+}
+
+/// The same with a small object that now is there and has this velocity.
+fn with_object(cycle: &Cycle, (x, y): (f64, f64), (vx, vy): (f64, f64)) -> Cycle {
+    let (stamp_ns, size) = (cycle.now_ns, 0.01);
+    let track = Track { id: 1, x, y, cos: 1.0, sin: 0.0, vx, vy, length: size, width: size };
+    let tracks = Some(TrackList { stamp_ns, items: vec![track] });
+    Cycle { tracks, ..cycle.clone() }
+}
+
+/// What the exact model finds, with which the implementation has to agree.
+fn found(cycle: &Cycle) -> Option<Rule> {
+    let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(cycle, it));
+    assert_eq!(conforming(cycle, &exact, &strict), Ok(()));
+    let report = exact.expect("valid");
+    let rule = report.witness().map(|witness| witness.rule);
+    assert_eq!(report.failed_stage.is_some(), rule.is_some(), "{report:?}");
+    rule
+}
+
+/// H-14.62: a path that turns by 0.3 may do so 5 m ahead while it is aside, and not where it crosses the line straight on.
+#[test]
+fn a_path_that_crosses_the_line_straight_on() {
+    let straight_on = |x: f64| (x, -0.3 / 0.91_f64.sqrt() * (x - 5.0), -0.3);
+    // Up to the straight part a cubic curve.
+    let (_, aside, _) = straight_on(3.6);
+    let slope = -0.3 / 0.91_f64.sqrt() * 3.6;
+    let curve = (0..9).map(|number| {
+        let t = f64::from(number) / 9.0;
+        let y = aside * t * t * (3.0 - 2.0 * t) + slope * t * t * (t - 1.0);
+        let rate = (aside * 6.0 * t * (1.0 - t) + slope * t * (3.0 * t - 2.0)) / 3.6;
+        (3.6 * t, y, rate / rate.hypot(1.0))
+    });
+    let points: Vec<Point> = curve.chain([3.6, 4.4, 5.6, 6.4].map(straight_on)).collect();
+    assert_eq!(found(&plan(10.0, [4.8, 1.9], 100_000_000, &points)), Some(Rule::Reach));
+    // Less of a turn is within reach.
+    let points: Vec<Point> = points.iter().map(|&(x, y, sin)| (x, 0.8 * y, 0.8 * sin)).collect();
+    assert_eq!(found(&plan(10.0, [4.8, 1.9], 100_000_000, &points)), None);
+}
+
+/// H-14.15: a point behind the CAV may be no farther aside than one beside it.
+#[test]
+fn a_point_behind_the_cav_and_aside() {
+    for (aside, expected) in [(1.0, Some(Rule::Reach)), (0.4, None)] {
+        let points = [(-1.0, aside, 0.0), (0.5, aside, 0.0), (1.5, aside, 0.0)];
+        let mut cycle = plan(1.0, [4.8, 1.9], 200_000_000, &points);
+        cycle.parameters.lateral_tolerance = 3.0;
+        assert_eq!(found(&cycle), expected);
+    }
+}
+
+/// H-14.1: whether a point is more than 1/8 m ahead is found exactly; there it turns too far to be a node (H-14.62).
+#[test]
+fn a_point_that_is_just_an_eighth_of_a_metre_ahead() {
+    let headings = (1..40).map(|number| 1.0 - 1e-8 * f64::from(number));
+    let rounded_down = |cos: f64| {
+        let near = (0.125 / cos).to_bits();
+        let all = (near - 2..near + 3).map(f64::from_bits);
+        let mut all = all.filter(|x| x * cos <= 0.125 && x.mul_add(cos, -0.125) > 0.0);
+        all.next().map(|x| (x, cos))
+    };
+    let (x, cos) = headings.into_iter().find_map(rounded_down).expect("a product");
+    let nodes = |x: f64| {
+        let points = [(0.0, 0.0, 0.0), (0.06, 0.0, 0.12), (x, 0.0, 0.25), (0.6, 0.1, 0.2)];
+        let mut cycle = plan(5.0, [4.8, 1.9], 200_000_000, &points);
+        cycle.ego.cos = cos;
+        found(&cycle)
+    };
+    assert_eq!([nodes(x), nodes(x.next_down())], [Some(Rule::Reach), None]);
+}
+
+/// H-14.12: before a path ends by its distance the CAV passes places on its last piece, and an object that comes later does
+/// not meet it there.
+#[test]
+fn who_comes_late_where_a_path_ends_by_its_distance() {
+    let radius = 2.6;
+    let points = (0..6).map(|number| {
+        let angle = 0.615 * f64::from(number) / 5.0;
+        (radius * angle.sin(), radius * (1.0 - angle.cos()), angle.sin())
+    });
+    let points: Vec<Point> = points.collect();
+    let &(x, y, sin) = points.last().expect("points");
+    let (cos, speed) = ((1.0 - sin * sin).sqrt(), 10.0);
+    let cycle = plan(10.0, [0.6, 0.5], 50_000_000, &points);
+    let (mut met, mut late) = (0, 0);
+    for number in 0..60_i32 {
+        // From the left of the path across it.
+        let (behind, after) =
+            (0.3 + 0.05 * f64::from(number % 6), 0.2 + 0.02 * f64::from(number / 6));
+        let way = speed * after + 0.25;
+        let at = (x + behind * cos - way * sin, y + behind * sin + way * cos);
+        let rule = found(&with_object(&cycle, at, (speed * sin, -speed * cos)));
+        met += u32::from(rule == Some(Rule::FailSafe));
+        late += u32::from(rule.is_none());
+    }
+    assert!(met > 9 && late > 9, "{met} {late}");
+}
+
+/// H-14.13: with a tau of 0 and headings shorter than 1 the length where the CAV stops is below `s_tyre`, and it stands there
+/// all the same.
+#[test]
+fn the_cav_stands_at_the_last_place() {
+    let points: Vec<Point> = (0..6).map(|x| (f64::from(x), 0.0, 0.0)).collect();
+    let mut cycle = plan(12.0, [4.8, 1.9], 100_000_000, &points);
+    (cycle.parameters.tau, cycle.parameters.a_b) = (0.0, 12.0);
+    for point in &mut cycle.trajectory.as_mut().expect("set").points {
+        point.cos = 1.0 - 4e-7;
+    }
+    let after = |seconds: f64| found(&with_object(&cycle, (8.3, 5.0 * seconds), (0.0, -5.0)));
+    assert_eq!([2.0, 4.0].map(after), [Some(Rule::FailSafe), None]);
+}
+
+/// H-14.42: where a CAV of 0.1 m in width is aside of its plan within 1/8 m, its first places leave room between them, in
+/// which an object keeps beside the path.
+#[test]
+fn between_two_places_of_a_narrow_cav() {
+    for side in [1.0, -1.0] {
+        let slide = (0..226).map(|number| (5e-4 * f64::from(number), 2e-3 * f64::from(number)));
+        let on = [(0.2, 0.45), (1.0, 0.45), (2.0, 0.45)];
+        let points: Vec<Point> = slide.chain(on).map(|(x, y)| (x, side * y, 0.0)).collect();
+        let mut cycle = plan(5.0, [4.0, 0.1], 200_000_000, &points);
+        for section in &mut cycle.route.cross_sections {
+            section.y -= 3.0;
+        }
+        cycle.parameters.theta_map = 5.0;
+        let drifting = |y: f64| found(&with_object(&cycle, (-10.0, side * y), (10.0, 0.27 * side)));
+        assert_eq!([0.1125, 0.16].map(drifting), [None, None], "{side}");
+        assert_eq!(drifting(0.175), Some(Rule::FailSafe), "{side}");
+    }
+}
+
+/// H-14.7: a node whose progress is `s_stop` exactly, which has more digits than two doubles, does not end the list: the
+/// path leads aside from there, to a post. The implementation, which cannot tell, counts a place more before it.
+#[test]
+fn a_path_that_leads_aside_where_the_cav_stops() {
+    // tau^2 is both the progress of the node and `s_stop`.
+    let tau = 1.0 + 1e-7;
+    let points = |x: f64| {
+        let aside = [(x, 0.0, 0.4), (0.99, 0.8, 0.4)];
+        let points = [(0.0, 0.0, 0.0), (0.5, 0.0, 0.05), (0.8, 0.0, 0.2)];
+        let mut cycle = plan(0.0, [4.8, 1.9], 200_000_000, &[&points[..], &aside].concat());
+        let parameters = &mut cycle.parameters;
+        (parameters.tau, parameters.a_max, parameters.a_b) = (tau, 1.0, 1.0);
+        cycle.ego.cos = tau;
+        let cycle = with_object(&cycle, (1.0, 1.6), (0.0, 0.0));
+        let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
+        assert_eq!(conforms(&exact, &strict, &check_impl(&cycle)), Ok(()));
+        exact.expect("valid").witness().map(|it| it.rule)
+    };
+    assert_eq!([tau, tau + 1e-3].map(points), [Some(Rule::FailSafe), None]);
+}
