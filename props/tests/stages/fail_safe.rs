@@ -59,7 +59,7 @@ fn limited_cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 }
 
 /// The steps that are too many for the strict model, if they are.
-fn too_much(cycle: &Cycle) -> Option<i64> {
+pub fn too_much(cycle: &Cycle) -> Option<i64> {
     let report = check(cycle, Reading::Strict).expect("valid");
     let witness = report.witness().filter(|witness| witness.rule == Rule::WorkLimit)?;
     witness.compared[0].to_string().parse().ok()
@@ -175,7 +175,7 @@ fn lists(frame: Frame, now_ns: i64) -> impl Fn(i64, Vec<(f64, f64)>) -> Detectio
 }
 
 /// With the least limit that the strict model bears the implementation conforms, and both find the cycle safe.
-fn assert_bears(mut cycle: Cycle) {
+pub fn assert_bears(mut cycle: Cycle) {
     cycle.parameters.work_limit = 0;
     while let Some(steps) = too_much(&cycle) {
         cycle.parameters.work_limit = steps;

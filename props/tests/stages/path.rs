@@ -1,6 +1,7 @@
 //! Paths that few cycles have, where quick answers of the implementation end (`spec/hardened/H-14.md#requirements-the-path`):
-//! H-14.1, H-14.7, H-14.12, H-14.13, H-14.15, H-14.42, H-14.62.
+//! H-14.1, H-14.7, H-14.12, H-14.13, H-14.15, H-14.42, H-14.51, H-14.62.
 
+use crate::fail_safe::{assert_bears, too_much};
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
     Cycle, DetectionList, Ego, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
@@ -112,16 +113,20 @@ fn a_point_that_is_just_an_eighth_of_a_metre_ahead() {
     assert_eq!([nodes(x), nodes(x.next_down())], [Some(Rule::Reach), None]);
 }
 
+/// A bend of 2.6 m radius, up to 35 degrees.
+fn turning() -> Vec<Point> {
+    let points = (0..6).map(|number| {
+        let angle = 0.615 * f64::from(number) / 5.0;
+        (2.6 * angle.sin(), 2.6 * (1.0 - angle.cos()), angle.sin())
+    });
+    points.collect()
+}
+
 /// H-14.12: before a path ends by its distance the CAV passes places on its last piece, and an object that comes later does
 /// not meet it there.
 #[test]
 fn who_comes_late_where_a_path_ends_by_its_distance() {
-    let radius = 2.6;
-    let points = (0..6).map(|number| {
-        let angle = 0.615 * f64::from(number) / 5.0;
-        (radius * angle.sin(), radius * (1.0 - angle.cos()), angle.sin())
-    });
-    let points: Vec<Point> = points.collect();
+    let points = turning();
     let &(x, y, sin) = points.last().expect("points");
     let (cos, speed) = ((1.0 - sin * sin).sqrt(), 10.0);
     let cycle = plan(10.0, [0.6, 0.5], 50_000_000, &points);
@@ -191,4 +196,39 @@ fn a_path_that_leads_aside_where_the_cav_stops() {
         exact.expect("valid").witness().map(|it| it.rule)
     };
     assert_eq!([tau, tau + 1e-3].map(points), [Some(Rule::FailSafe), None]);
+}
+
+/// H-14.51, H-14.55: objects just so far to each side of a path that turns that they do not come near it take no more than
+/// two motions' work.
+#[test]
+fn objects_that_do_not_come_near_a_path_that_turns() {
+    let cycle = plan(10.0, [12.0, 2.55], 50_000_000, &turning());
+    let bears = |at: (f64, f64)| {
+        let mut cycle = with_object(&cycle, at, (0.0, 0.0));
+        cycle.parameters.work_limit = 0;
+        let is_far = too_much(&cycle).is_none_or(|work| work <= 320);
+        if is_far {
+            assert_bears(cycle);
+        }
+        is_far
+    };
+    // A place on each side, and where the first one is that is not near.
+    let beside = |at: &dyn Fn(f64) -> (f64, f64)| {
+        let (mut near, mut far) = (0.0, 40.0);
+        while far - near > 1e-3 {
+            let middle = f64::midpoint(near, far);
+            let side = if bears(at(middle)) { &mut far } else { &mut near };
+            *side = middle;
+        }
+        far
+    };
+    let left = beside(&|y| (3.0, y));
+    let right = beside(&|y| (3.0, -y));
+    let ahead = beside(&|x| (x, 0.0));
+    let behind = beside(&|x| (-x, 0.0));
+    for number in 0..=40 {
+        let share = f64::from(number) / 40.0;
+        let (x, y) = (share * (ahead + behind) - behind, share * (left + right) - right);
+        assert!([(x, left), (x, -right), (ahead, y), (-behind, y)].into_iter().all(bears));
+    }
 }
