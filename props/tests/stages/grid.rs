@@ -5,10 +5,12 @@
 use std::collections::BTreeMap;
 
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Ego, Profile};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Ego, Grid, Profile};
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
+use mufasa_props::bridge::check_impl;
 use mufasa_props::differential::{agree, near_threshold, runner};
+use mufasa_props::strategy::base::{self, Frame};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::grid;
 use proptest::strategy::{Strategy, ValueTree};
@@ -132,4 +134,47 @@ fn collides(report: &Report) -> bool {
     let [.., v] = &report.stages;
     report.failed_stage == Some(FailedStage::Stage(Stage::V))
         && matches!(v, Outcome::Failed(witness) if witness.rule == Rule::Occupied)
+}
+
+/// The CAV has one disk, whose centre is so many cells beyond the border of a grid that is occupied everywhere.
+fn at_a_border(beyond: f64, side: usize) -> Cycle {
+    const CELLS: i64 = 8;
+    let (middle, after) = (4.5, 8.0 + beyond);
+    let places = [(after, middle), (-beyond, middle), (middle, after), (middle, -beyond)];
+    let (x, y) = places[side];
+    let frame = Frame { x, y, cos: 1.0, sin: 0.0 };
+    let configuration = Configuration::MotRemote;
+    let mut cycle = base::cycle(&mut Draw::new(&[]), frame, Profile::PAPER, configuration);
+    cycle.ego = Ego { speed: 0.0, length: 2.0, width: 2.0, center_offset: 0.0, ..cycle.ego };
+    cycle.parameters.n = 1;
+    cycle.grid = Some(Grid {
+        stamp_ns: cycle.now_ns,
+        x: 0.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 1.0,
+        width: CELLS,
+        height: CELLS,
+        occupied: vec![0xff; 8],
+        unknown: None,
+    });
+    cycle
+}
+
+/// S5-03, S5-05, S5-06: no cell is marked outside of the array, whatever is near; its border belongs to it.
+#[test]
+fn nothing_is_marked_beyond_a_border_of_the_grid() {
+    let at_v = Some(FailedStage::Stage(Stage::V));
+    for side in 0..4 {
+        for (beyond, failed) in [(-0.5, at_v), (0.0, at_v), (0.5, None)] {
+            let cycle = at_a_border(beyond, side);
+            for reading in [Reading::Exact, Reading::Strict] {
+                let model = check(&cycle, reading).expect("valid");
+                assert_eq!(model.failed_stage, failed, "{reading:?} {side} {beyond}");
+            }
+            let found = check_impl(&cycle).expect("valid");
+            assert_eq!(found.failed_stage, failed, "{side} {beyond}");
+        }
+    }
 }
