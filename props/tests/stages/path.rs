@@ -1,10 +1,10 @@
 //! Paths that few cycles have, where quick answers of the implementation end (`spec/hardened/H-14.md#requirements-the-path`):
-//! H-14.1, H-14.7, H-14.12, H-14.13, H-14.15, H-14.42, H-14.51, H-14.62.
+//! H-14.1, H-14.7, H-14.12, H-14.13, H-14.15, H-14.39, H-14.42, H-14.51, H-14.62.
 
 use crate::fail_safe::{assert_bears, too_much};
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
-    Cycle, DetectionList, Ego, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Ego, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::{Reading, Rule};
@@ -156,6 +156,30 @@ fn the_cav_stands_at_the_last_place() {
     }
     let after = |seconds: f64| found(&with_object(&cycle, (8.3, 5.0 * seconds), (0.0, -5.0)));
     assert_eq!([2.0, 4.0].map(after), [Some(Rule::FailSafe), None]);
+}
+
+/// H-14.39: a route that turns back has both ends abreast. The CAV stands there, on the lines through both, and a car that
+/// comes from behind keeps beside no path.
+#[test]
+fn abreast_of_both_ends_of_a_route() {
+    let section =
+        |x: f64, y: f64, left: [f64; 2], right: [f64; 2]| CrossSection { x, y, left, right };
+    let turning_back = vec![
+        section(0.0, -20.0, [0.0, -28.0], [0.0, -12.0]),
+        section(-400.0, -20.0, [-400.0, -28.0], [-400.0, -12.0]),
+        section(-400.0, -8.0, [-400.0, 5.0], [-400.0, -12.0]),
+        section(0.0, -8.0, [20.0, 5.0], [20.0, -12.0]),
+    ];
+    let mut cycle = plan(0.0, [2.0, 2.0], 200_000_000, &[(0.0, -0.4, 0.0)]);
+    (cycle.parameters.tau, cycle.parameters.theta_map) = (0.0, 10.0);
+    cycle.route.cross_sections = turning_back;
+    let car = |cycle: &Cycle| found(&with_object(cycle, (-75.0, -7.0), (20.0, 1.547)));
+    assert_eq!(car(&cycle), Some(Rule::FailSafe));
+    // A route that goes on for 30 m has room beside it.
+    for section in &mut cycle.route.cross_sections {
+        section.x += if section.x < 0.0 { 0.0 } else { 30.0 };
+    }
+    assert_eq!(car(&cycle), None);
 }
 
 /// H-14.42: where a CAV of 0.1 m in width is aside of its plan within 1/8 m, its first places leave room between them, in

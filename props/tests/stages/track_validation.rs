@@ -4,7 +4,7 @@
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::input::parameters::Parameters;
-use mufasa_model::report::{FailedStage, Reading, Stage};
+use mufasa_model::report::{FailedStage, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::differential::{agree, near_threshold};
@@ -77,5 +77,35 @@ fn the_place_of_a_track_is_not_rounded_towards_its_detection() {
             let found = check_impl(&cycle).expect("valid");
             assert_eq!(found.failed_stage, failed, "{more} {:?}", cycle.parameters);
         }
+    }
+}
+
+/// S1-08: of tracks beside their detections no assignment is computed, which would be above the default limit of work; not
+/// even if one more is beyond the field of view.
+#[test]
+fn many_tracks_beside_their_detections_need_no_assignment() {
+    let frame = Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    let place = |number: u32| (10.0 + 4.0 * f64::from(number % 10), 4.0 * f64::from(number / 10));
+    let beside = |number| {
+        let (x, y) = place(number);
+        (0.999 * x, 0.999 * y)
+    };
+    for (profile, beyond) in [Profile::PAPER, Profile::HARDENED]
+        .into_iter()
+        .flat_map(|it| [None, Some((500.0, 0.0))].map(|beyond| (it, beyond)))
+    {
+        let mut cycle = base::cycle(&mut Draw::new(&[]), frame, profile, Configuration::MotRemote);
+        (cycle.trajectory, cycle.parameters) = (None, Parameters::default());
+        let stamp_ns = cycle.now_ns;
+        let items = (0..80).map(|number| detection(frame, place(number))).collect();
+        cycle.detections = Some(DetectionList { stamp_ns, items });
+        let tracks = (0..80).map(beside).chain(beyond).zip(1..);
+        let items = tracks.map(|(at, id)| track(frame, at, id)).collect();
+        cycle.tracks = Some(TrackList { stamp_ns, items });
+        let [exact, strict] = [Reading::Exact, Reading::Strict].map(|it| check(&cycle, it));
+        assert!(exact.expect("valid").failed_stage.is_none(), "{beyond:?}");
+        let strict = strict.expect("valid");
+        assert_eq!(strict.witness().map(|it| it.rule), Some(Rule::WorkLimit));
+        assert!(check_impl(&cycle).expect("valid").failed_stage.is_none(), "{beyond:?}");
     }
 }
