@@ -1,6 +1,7 @@
 //! The implementation against the exact model, stage by stage and in whole cycles; what an
 //! implementation must be besides; and results of others.
 
+mod agreed;
 mod aim;
 mod detections;
 mod determinism;
