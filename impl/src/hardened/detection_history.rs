@@ -284,17 +284,13 @@ fn own_detections_pass(
     let places = Places::at(tracks, detections.stamp_ns);
     let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
     detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
-    let limits = pair_limits(cycle);
-    let mut sum = PairSum::default();
+    let mut sum = PairSum::new(pair_limits(cycle), &places);
     tracks.items.iter().zip(rows).all(|(track, row)| {
         let own = row.own_detection().and_then(|own| detections.items.get(usize::from(own)));
-        match gate.admits(places.of(track)) {
-            Some(true) => match own {
-                Some(own) => sum.pair(places.metres(track, own)),
-                None => sum.leave_out(row.is_backed(), &limits),
-            },
-            Some(false) => true,
-            None => false,
+        match (gate.admits(places.of(track)), own) {
+            (Some(false), _) => true,
+            (is_gated, Some(own)) => sum.pair(is_gated, places.metres(track, own)),
+            (_, None) => sum.leave_out(row.is_backed()),
         }
-    }) && sum.passes(&limits, &places)
+    }) && sum.passes()
 }

@@ -77,31 +77,76 @@ fn the_place_of_a_track_is_not_rounded_towards_its_detection() {
     }
 }
 
-/// S1-08: of tracks beside their detections no assignment is computed, which would be above the default limit of work; not
-/// even if one more is beyond the field of view.
+/// The profiles, hardened without and with detections of before.
+const PROFILES: [(Profile, &[i64]); 3] = [
+    (Profile::PAPER, &[]),
+    (Profile::HARDENED, &[]),
+    (Profile::HARDENED, &[400_000_000, 500_000_000, 600_000_000]),
+];
+
+/// Detections that were always there, and tracks, in m ahead and to the left of the CAV.
+fn standing(
+    (profile, ages): (Profile, &[i64]),
+    seen: &[(f64, f64)],
+    tracked: impl Iterator<Item = (f64, f64)>,
+) -> Cycle {
+    let frame = Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    let mut cycle = base::cycle(&mut Draw::new(&[]), frame, profile, Configuration::MotRemote);
+    (cycle.trajectory, cycle.parameters) = (None, Parameters::default());
+    let stamp_ns = cycle.now_ns;
+    let items: Vec<_> = seen.iter().map(|&at| detection(frame, at)).collect();
+    let list = |age| DetectionList { stamp_ns: stamp_ns - age, items: items.clone() };
+    cycle.detections = Some(list(0));
+    cycle.detection_history = ages.iter().map(|&age| list(age)).collect();
+    let items = tracked.zip(1..).map(|(at, id)| track(frame, at, id)).collect();
+    cycle.tracks = Some(TrackList { stamp_ns, items });
+    cycle
+}
+
+/// S1-08: of tracks at their detections or beside them no assignment is computed, which would be above the default limit of
+/// work; not even if one more is beyond the field of view, or the farthest are as far as their detections.
 #[test]
 fn many_tracks_beside_their_detections_need_no_assignment() {
-    let frame = Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
-    let place = |number: u32| (10.0 + 4.0 * f64::from(number % 10), 4.0 * f64::from(number / 10));
-    let beside = |number| {
-        let (x, y) = place(number);
-        (0.999 * x, 0.999 * y)
-    };
-    for (profile, beyond) in [Profile::PAPER, Profile::HARDENED]
-        .into_iter()
-        .flat_map(|it| [None, Some((500.0, 0.0))].map(|beyond| (it, beyond)))
-    {
-        let mut cycle = base::cycle(&mut Draw::new(&[]), frame, profile, Configuration::MotRemote);
-        (cycle.trajectory, cycle.parameters) = (None, Parameters::default());
-        let stamp_ns = cycle.now_ns;
-        let items = (0..80).map(|number| detection(frame, place(number))).collect();
-        cycle.detections = Some(DetectionList { stamp_ns, items });
-        let tracks = (0..80).map(beside).chain(beyond).zip(1..);
-        let items = tracks.map(|(at, id)| track(frame, at, id)).collect();
-        cycle.tracks = Some(TrackList { stamp_ns, items });
-        let [exact, strict] = reports(&cycle);
-        assert!(exact.failed_stage.is_none(), "{beyond:?}");
-        assert_eq!(strict.witness().map(|it| it.rule), Some(Rule::WorkLimit));
-        assert!(check_impl(&cycle).expect("valid").failed_stage.is_none(), "{beyond:?}");
+    let seen: Vec<_> = (0..80)
+        .map(|number| (10.0 + 4.0 * f64::from(number % 10), 4.0 * f64::from(number / 10)))
+        .collect();
+    for profile in PROFILES {
+        for (share, beyond) in [(0.999, None), (0.999, Some((500.0, 0.0))), (1.0, None)] {
+            let tracked = seen.iter().map(|(x, y)| (share * x, share * y)).chain(beyond);
+            let cycle = standing(profile, &seen, tracked);
+            let [exact, strict] = reports(&cycle);
+            assert!(exact.failed_stage.is_none(), "{share} {beyond:?}");
+            assert_eq!(strict.witness().map(|it| it.rule), Some(Rule::WorkLimit));
+            assert!(
+                check_impl(&cycle).expect("valid").failed_stage.is_none(),
+                "{share} {beyond:?}"
+            );
+        }
+    }
+}
+
+/// S1-03, S1-06: a track as far as the farthest detection counts, one that is farther by a last place does not; both for a
+/// mean that only one of the two keeps below the threshold.
+#[test]
+fn a_track_as_far_as_the_farthest_detection_counts() {
+    let at_i = Some(FailedStage::Stage(Stage::I));
+    let next = 4.0 * (1.0 + f64::EPSILON);
+    // The distance of the first track to its detection, the place of the second, whether the mean is too great.
+    let cases = [
+        (1.4, (4.0, 3.0), None),
+        (1.4, (next, 3.0), at_i),
+        (1.1, (3.0, 4.0), at_i),
+        (1.1, (3.0, next), None),
+    ];
+    for profile in PROFILES {
+        for (away, second, failed) in cases {
+            let tracked = [(1.0, -away), second];
+            let mut cycle = standing(profile, &[(1.0, 0.0), (4.0, 3.0)], tracked.into_iter());
+            (cycle.parameters.theta_tr, cycle.parameters.theta_track_max) = (1.2, 2.0);
+            cycle.parameters.miss_budget = 0;
+            let [exact, _] = reports(&cycle);
+            assert_eq!(exact.failed_stage, failed, "{away} {second:?}");
+            assert_eq!(check_impl(&cycle).expect("valid").failed_stage, exact.failed_stage);
+        }
     }
 }

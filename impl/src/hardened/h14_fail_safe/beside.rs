@@ -110,8 +110,7 @@ impl<'c, 'a> Beside<'c, 'a> {
     fn needed(&self, object: &Passing, hint: usize, work: &Work) -> Option<(Real, Real)> {
         let Rectangle { centre, direction, length, width } = object.now;
         let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
-        let nearest = self.route.nearest(centre, hint);
-        let away = nearest.0;
+        let away = self.route.nearest(centre, hint);
         let [x, y] = [centre.x.value(), centre.y.value()];
         let near = self.route.segments([x, y], away.value()).count();
         work.add(SEGMENT.saturating_mul(u64::try_from(near).unwrap_or(u64::MAX)));
@@ -123,7 +122,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         }
         let most = (object.speed * away).over(Real::new(DRIFT));
         let mut needed = Real::ZERO;
-        self.route.each_nearest(centre, nearest, |segment| {
+        self.route.each_nearest(centre, away, |segment| {
             for q in from_segment(centre, segment.from, segment.to).into_iter().flatten() {
                 let drift = object.velocity.dot(q).abs();
                 // H-14.43
@@ -164,7 +163,7 @@ impl<'c, 'a> Beside<'c, 'a> {
             let across = h_k.dot(g).abs() * width + h_k.cross(g).abs() * length;
             extent = extent.max(across.over(g.norm()));
         });
-        Some([nearest.0, extent + self.aside])
+        Some([nearest, extent + self.aside])
     }
 }
 

@@ -18,25 +18,16 @@ impl<'a> IndexedRoute<'_, 'a> {
         })
     }
 
-    /// The distance of a place to the reference path, and a segment that may be nearest to it.
-    pub(crate) fn nearest(&self, place: Vector, hint: usize) -> (Real, usize) {
-        let (about, hint) = self.about([place.x.value(), place.y.value()], hint);
-        let mut found = (Real::new(f64::MAX), hint);
-        for segment in self.around(place, about) {
-            let away = distance_to_segment(place, segment.from, segment.to);
-            let nearer = (away - found.0).value() < 0.0;
-            found = (away.min(found.0), if nearer { segment.index } else { found.1 });
-        }
-        found
+    /// The distance of a place to the reference path.
+    pub(crate) fn nearest(&self, place: Vector, hint: usize) -> Real {
+        let (about, _) = self.about([place.x.value(), place.y.value()], hint);
+        self.around(place, about)
+            .map(|segment| distance_to_segment(place, segment.from, segment.to))
+            .fold(Real::new(f64::MAX), Real::min)
     }
 
     /// Calls `ask` for each segment that may be as near as the nearest one (H-14.44).
-    pub(crate) fn each_nearest(
-        &self,
-        place: Vector,
-        (least, _): (Real, usize),
-        mut ask: impl FnMut(&Segment),
-    ) {
+    pub(crate) fn each_nearest(&self, place: Vector, least: Real, mut ask: impl FnMut(&Segment)) {
         let is_nearest = |segment: &Segment| {
             distance_to_segment(place, segment.from, segment.to).possibly_at_most(least)
         };

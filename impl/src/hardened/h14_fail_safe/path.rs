@@ -4,12 +4,9 @@
 //! The places of a piece are taken with the node from which it leads, not with the one to which, so
 //! that all of them have one heading.
 
-use core::cmp::Ordering;
-
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Ego, TrajectoryPoint};
-use crate::numbers::exact::{Product, compare};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
@@ -193,23 +190,14 @@ impl Iterator for Pieces<'_> {
 }
 
 /// The least n with abs(to - from) <= n d (H-14.3); exact. A quotient in plain doubles is below
-/// 2^33, so that it errs by less than 1e-5.
+/// 2^33, so that it errs by less than 1e-5; the difference and the product have no error, so that
+/// their order is certain.
 #[allow(clippy::cast_possible_truncation, reason = "below 2^33")]
 fn steps(from: f64, to: f64, d: f64) -> i64 {
-    let quotient = (to - from).abs() / d;
-    let nearest = libm::floor(quotient + 0.5);
-    if quotient <= 0.0 || (quotient - nearest).abs() > 1e-5 {
-        return -libm::floor(-quotient) as i64;
-    }
+    let nearest = libm::floor((to - from).abs() / d + 0.5);
     let fewer = nearest as i64;
-    let size = Real::difference(to, from).abs();
-    let reached = Real::new(nearest) * Real::new(d);
-    let fits = size.certainly_at_most(reached)
-        || !reached.certainly_below(size) && {
-            let sign = if to < from { -1.0 } else { 1.0 };
-            let reached = [Product([nearest, 0.0], [d, 0.0])];
-            compare(&reached, &[Product([to, from], [sign, 0.0])]) != Ordering::Less
-        };
+    let fits =
+        Real::difference(to, from).abs().certainly_at_most(Real::new(nearest) * Real::new(d));
     if fits { fewer } else { fewer.saturating_add(1) }
 }
 

@@ -38,11 +38,11 @@ pub(crate) fn certainly_pass(
     limits: PairLimits,
     (rows, columns): (&[Row], &mut [Column]),
 ) -> bool {
-    let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
+    let mut sum = PairSum::new(limits, places);
     // Farther pairs would hardly keep the mean below the threshold.
-    let reach = (5.0 * limits.theta_tr).min(limits.limit * (1.0 - 1e-12) - error);
+    let reach = (5.0 * limits.theta_tr).min(limits.limit * (1.0 - 1e-12) - sum.error);
     let mut squares = Squares::new(detections, reach, columns);
-    let (mut gate, mut sum) = (Gate::new(p, places), PairSum::default());
+    let mut gate = Gate::new(p, places);
     for (index, detection) in detections.iter().enumerate() {
         let place = [detection.x, detection.y];
         gate.include(place);
@@ -50,25 +50,27 @@ pub(crate) fn certainly_pass(
     }
     for (index, track) in places.tracks.iter().enumerate() {
         let place = places.of(track);
-        match gate.admits(place) {
-            Some(true) => {}
-            Some(false) => continue,
-            None => return false,
+        let is_gated = gate.admits(place);
+        if is_gated == Some(false) {
+            continue;
         }
         let fits = match squares.take(place) {
-            Some(squared) => sum.pair(libm::sqrt(squared)),
-            None => sum.leave_out((limits.may_be_left)(rows, index), &limits),
+            Some(squared) => sum.pair(is_gated, libm::sqrt(squared)),
+            None => sum.leave_out((limits.may_be_left)(rows, index)),
         };
         if !fits {
             return false;
         }
     }
-    sum.passes(&limits, places)
+    sum.passes()
 }
 
 /// Pairs so far, and tracks that are left out.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PairSum {
+    limits: PairLimits,
+    /// Of a distance, m.
+    error: f64,
     /// m
     sum: f64,
     paired: u32,
@@ -76,24 +78,36 @@ pub(crate) struct PairSum {
 }
 
 impl PairSum {
-    /// One more pair, which fits.
-    pub(crate) fn pair(&mut self, metres: f64) -> bool {
+    /// No pairs.
+    pub(crate) const fn new(limits: PairLimits, places: &Places<'_>) -> Self {
+        let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
+        Self { limits, error, sum: 0.0, paired: 0, left: 0 }
+    }
+
+    /// Whether one more pair fits, of a track that is gated or may be (`Gate::admits`). One of the second kind is
+    /// below the limit of the mean: with it and without it the others decide.
+    pub(crate) fn pair(&mut self, is_gated: Option<bool>, metres: f64) -> bool {
+        if is_gated.is_none() {
+            return self.is_mean_below(metres, 1.0);
+        }
         self.sum += metres;
         self.paired = self.paired.saturating_add(1);
         true
     }
 
     /// Whether one more track fits that is left out.
-    pub(crate) const fn leave_out(&mut self, may_be_left: bool, limits: &PairLimits) -> bool {
+    pub(crate) const fn leave_out(&mut self, may_be_left: bool) -> bool {
         self.left = self.left.saturating_add(1);
-        may_be_left && self.left <= limits.spare
+        may_be_left && self.left <= self.limits.spare
     }
 
     /// Whether the mean certainly is below the limit, or nothing was to be paired (S1-06, I-02).
-    pub(crate) fn passes(&self, limits: &PairLimits, places: &Places<'_>) -> bool {
-        let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
-        let k = f64::from(self.paired);
-        self.paired == 0 || self.sum * (1.0 + 1e-12) + 1e-100 + k * error < k * limits.theta_tr
+    pub(crate) fn passes(&self) -> bool {
+        self.paired == 0 || self.is_mean_below(self.sum, f64::from(self.paired))
+    }
+
+    fn is_mean_below(&self, sum: f64, k: f64) -> bool {
+        sum * (1.0 + 1e-12) + 1e-100 + k * self.error < k * self.limits.theta_tr
     }
 }
 
