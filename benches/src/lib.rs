@@ -7,6 +7,7 @@ pub mod peer;
 pub mod periods;
 #[cfg(feature = "peers")]
 pub mod race;
+pub mod steps;
 #[cfg(feature = "peers")]
 pub mod table;
 pub mod workload;

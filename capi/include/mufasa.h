@@ -1131,7 +1131,8 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
 // 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
-// Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
+// Takes many steps and returns how many: the longest of several times, in ps, divided by them, is `step_ps` on x86-64; on another
+// processor times what docs/embedded.md says of a step.
 uint64_t mufasa_monitor_calibrate(void);
 
 // What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.

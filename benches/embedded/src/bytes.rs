@@ -68,7 +68,7 @@ choices! {
     ];
     Task: [
         Task::Check, Task::Kept, Task::Stage(Stage::I), Task::Stage(Stage::Ii), Task::Stage(Stage::Iii),
-        Task::Stage(Stage::Iv), Task::Stage(Stage::V),
+        Task::Stage(Stage::Iv), Task::Stage(Stage::V), Task::Input, Task::Calibrate,
     ];
 }
 

@@ -17,6 +17,7 @@ use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::monitor::Monitor;
 use mufasa::report::{Outcome, Stage};
 
 pub use bytes::Bytes;
@@ -29,8 +30,12 @@ pub enum Task {
     /// `check_with`, with the indexes that a vehicle keeps of its route and its earlier lists; that of the
     /// current detections is built within.
     Kept,
+    /// Its first part: whether the input is valid.
+    Input,
     /// One stage alone, with these indexes and that of the current detections.
     Stage(Stage),
+    /// `Monitor::calibrate`, whatever the cycle.
+    Calibrate,
 }
 
 /// A cycle and what is asked of it.
@@ -67,6 +72,11 @@ impl Case<'_> {
             kept = cycle.detection_history.iter().map(index).collect();
             slots = vec![Slot::EMPTY; cycle.detections.map_or(0, |list| list.items.len())];
         }
+        if *task == Task::Calibrate {
+            let mut taken = 0;
+            measure(&mut || taken = Monitor::calibrate());
+            return (0, format!("{taken}"));
+        }
         if let Task::Stage(stage) = *task {
             if !kept.is_empty() {
                 kept.extend(cycle.detections.iter().map(index));
@@ -77,16 +87,20 @@ impl Case<'_> {
             measure(&mut || outcome = valid.stage(stage, &mut scratch));
             return (sizes.bytes(), format!("{outcome:?}"));
         }
-        let mut report = None;
+        let (mut problem, mut report) = (None, None);
         measure(&mut || {
             let mut all = [DetectionIndex::EMPTY; 5];
             all.iter_mut().zip(&kept).for_each(|(place, index)| *place = *index);
             if let (Some(list), false) = (&cycle.detections, slots.is_empty()) {
                 all[4] = DetectionIndex::new(list, &mut slots).expect("valid detections");
             }
-            report = Some(check_with(cycle, &Indexes { route, detections: &all }, &mut scratch));
+            let indexes = Indexes { route, detections: &all };
+            match task {
+                Task::Input => problem = ValidCycle::with(cycle, indexes, &scratch).err(),
+                _ => report = Some(check_with(cycle, &indexes, &mut scratch)),
+            }
         });
-        (sizes.bytes(), format!("{report:?}"))
+        (sizes.bytes(), format!("{problem:?} {report:?}"))
     }
 }
 

@@ -81,7 +81,8 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
     }
 }
 
-/// Takes many steps and returns how many: the longest of several times, in ps, divided by them is `step_ps`.
+/// Takes many steps and returns how many: the longest of several times, in ps, divided by them, is `step_ps` on x86-64; on another
+/// processor times what docs/embedded.md says of a step.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
     Monitor::calibrate()

@@ -8,9 +8,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mufasa::input::profile::Profile;
+use mufasa::monitor::Monitor;
 use mufasa::services::configuration::Configuration;
+use mufasa_benches::steps;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
-use mufasa_benches::worst;
 use mufasa_embedded::{Bytes, Case, Task};
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
@@ -23,6 +24,8 @@ type Failure = Box<dyn Error>;
 
 /// Of the cases of a smoke test, one of so many vectors.
 const SMOKE: usize = 40;
+/// The size of the inputs whose steps are counted.
+const SIZE: u32 = 128;
 
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1).collect::<Vec<_>>();
@@ -31,7 +34,7 @@ fn main() -> Result<(), Failure> {
     let (folder, vectors) = (Path::new(folder), vectors(smoke.is_some())?);
     if task == "write" {
         let mut all = Vec::new();
-        each(&vectors, smoke.is_some(), &mut |_, case| {
+        each(&vectors, smoke.is_some(), &mut |_, _, case| {
             let mut bytes = Vec::new();
             case.write(&mut bytes);
             all.extend(bytes.len().to_le_bytes());
@@ -45,8 +48,9 @@ fn main() -> Result<(), Failure> {
         bridge::conforms(&exact, &strict, &found).map_err(|it| format!("vector {at}: {it}"))?;
     }
     let mut expected = Vec::new();
-    each(&vectors, smoke.is_some(), &mut |name, case| {
-        expected.push((name.to_owned(), case.answer(&mut |call| call()).1));
+    each(&vectors, smoke.is_some(), &mut |name, steps, case| {
+        let answer = case.answer(&mut |call| call()).1;
+        expected.push(Expected { name: name.to_owned(), steps, answer });
     });
     let found = targets.iter().map(|target| Found::new(&folder.join(target), target, &expected));
     let found = found.collect::<Result<Vec<_>, _>>()?;
@@ -54,12 +58,19 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Calls a job with each case and its name; that of a vector is empty.
-fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, &Case<'_>)) {
+/// What a case has to answer. The name of a vector is empty; where steps are not counted they are 0.
+struct Expected {
+    name: String,
+    steps: u64,
+    answer: String,
+}
+
+/// Calls a job with each case, its name and its steps.
+fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, u64, &Case<'_>)) {
     for cycle in vectors {
         let owned = bridge::to_impl(cycle);
         let history = owned.history();
-        job("", &Case { task: Task::Check, cycle: owned.borrow(&history) });
+        job("", 0, &Case { task: Task::Check, cycle: owned.borrow(&history) });
     }
     for size in SIZES.iter().take(if smoke { 1 } else { 3 }) {
         let workload = Workload::new(size, Variant::Pass);
@@ -67,17 +78,23 @@ fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, &Case<'_>)) {
             for (profile, rules) in [("paper", Profile::PAPER), ("hardened", Profile::HARDENED)] {
                 let cycle = workload.cycle(rules, configuration);
                 let name = format!("{}, `{configuration:?}`, {profile}", workload.name);
-                job(&name, &Case { task: Task::Kept, cycle });
+                job(&name, 0, &Case { task: Task::Kept, cycle });
             }
         }
     }
-    if !smoke {
-        worst::vehicle(&mut |stage, input, cycle| {
-            let name = ["i", "ii", "iii", "iv", "v"][stage as usize];
-            let case = Case { task: Task::Stage(stage), cycle: *cycle };
-            job(&format!("stage {name} alone, hardened: {input}"), &case);
+    if smoke {
+        return;
+    }
+    for (name, _) in steps::INPUTS {
+        steps::input(name, SIZE, &mut |stage, cycle| {
+            let task = stage.map_or(Task::Input, Task::Stage);
+            job(name, steps::allowed(stage, cycle), &Case { task, cycle: *cycle });
         });
     }
+    steps::input(steps::INPUTS[0].0, SIZE, &mut |_, cycle| {
+        let case = Case { task: Task::Calibrate, cycle: *cycle };
+        job("`Monitor::calibrate`", Monitor::calibrate(), &case);
+    });
 }
 
 /// The cycles of the published vectors, in order of their files.
@@ -113,14 +130,14 @@ struct Found {
     code: Vec<(String, u64)>,
     /// Instructions of a loop and as they were counted; bytes of scratch, of all that a monitor is lent, of itself.
     first: Vec<u64>,
-    /// Instructions, bytes of stack and of scratch by name; of vectors the largest stack alone.
-    cases: Vec<(String, [u64; 3])>,
+    /// Name, steps, and instructions, bytes of stack and of scratch; of vectors the largest stack alone.
+    cases: Vec<(String, u64, [u64; 3])>,
     stack_of_vectors: u64,
 }
 
 impl Found {
     /// Errors: another answer than that of this machine.
-    fn new(folder: &Path, target: &str, expected: &[(String, String)]) -> Result<Self, Failure> {
+    fn new(folder: &Path, target: &str, expected: &[Expected]) -> Result<Self, Failure> {
         let code = fs::read_to_string(folder.join("code"))?;
         let code = code.lines().filter_map(|line| line.split_once(' '));
         let code = code.map(|(level, bytes)| Ok((level.to_owned(), bytes.parse()?)));
@@ -133,7 +150,8 @@ impl Found {
             return Err(format!("{target}: {} of {} answers", answers.len(), expected.len()).into());
         }
         let (mut cases, mut stack_of_vectors) = (Vec::new(), 0);
-        for (at, (answer, (name, right))) in answers.iter().zip(expected).enumerate() {
+        for (at, (answer, expected)) in answers.iter().zip(expected).enumerate() {
+            let Expected { name, steps, answer: right } = expected;
             let mut parts = answer.splitn(4, ' ');
             let mut number = || parts.next().unwrap_or_default().parse::<u64>();
             let numbers = [number()?, number()?, number()?];
@@ -144,10 +162,20 @@ impl Found {
             if name.is_empty() {
                 stack_of_vectors = numbers[1].max(stack_of_vectors);
             } else {
-                cases.push((name.clone(), numbers));
+                cases.push((name.clone(), *steps, numbers));
             }
         }
         Ok(Self { target: target.to_owned(), code, first, cases, stack_of_vectors })
+    }
+
+    /// How many times the instructions of a step of `Monitor::calibrate` one takes, at most; tenths, rounded up.
+    fn over_calibrated(&self) -> u64 {
+        let counted = self.cases.iter().filter(|it| it.1 > 0);
+        let of_a_step: Vec<_> = counted.map(|it| 1000 * it.2[0] / it.1).collect();
+        let (Some(calibrated), Some(most)) = (of_a_step.last(), of_a_step.iter().max()) else {
+            return 0;
+        };
+        (10 * most).div_ceil(*calibrated)
     }
 }
 
@@ -166,7 +194,7 @@ fn print(found: &[Found], vectors: usize) {
     }
     row("stack of a call, the largest of all vectors", &|it| it.stack_of_vectors);
     row("stack of a call, the largest of the table below", &|it| {
-        it.cases.iter().map(|it| it.1[1]).max().unwrap_or(0)
+        it.cases.iter().map(|it| it.2[1]).max().unwrap_or(0)
     });
     row("scratch", &|it| it.first[2]);
     row("all that a monitor is lent, scratch included", &|it| it.first[3]);
@@ -175,11 +203,22 @@ fn print(found: &[Found], vectors: usize) {
     let columns: Vec<_> = names.iter().map(|it| format!("{it}: instructions | stack")).collect();
     println!("\n| one call | scratch | {} |", columns.join(" | "));
     println!("|---|--:|{}", "--:|--:|".repeat(found.len()));
-    for (at, (name, [_, _, scratch])) in found[0].cases.iter().enumerate() {
-        let numbers = found.iter().flat_map(|it| it.cases[at].1[..2].iter().copied());
-        let cells: Vec<_> = numbers.map(grouped).collect();
-        println!("| {name} | {} | {} |", grouped(*scratch), cells.join(" | "));
+    for (at, (name, steps, [_, _, scratch])) in found[0].cases.iter().enumerate() {
+        if *steps == 0 {
+            let numbers = found.iter().flat_map(|it| it.cases[at].2[..2].iter().copied());
+            let cells: Vec<_> = numbers.map(grouped).collect();
+            println!("| {name} | {} | {} |", grouped(*scratch), cells.join(" | "));
+        }
     }
+    println!("\n| instructions of a step | steps | {} |", names.join(" | "));
+    println!("|---|--:|{}", "--:|".repeat(found.len()));
+    let tenths = |number: u64| format!("{}.{}", number / 10, number % 10);
+    for (at, (name, steps, _)) in found[0].cases.iter().enumerate().filter(|(_, it)| it.1 > 0) {
+        let cells: Vec<_> = found.iter().map(|it| tenths(10 * it.cases[at].2[0] / steps)).collect();
+        println!("| {name} | {} | {} |", grouped(*steps), cells.join(" | "));
+    }
+    let cells: Vec<_> = found.iter().map(|it| tenths(it.over_calibrated())).collect();
+    println!("| **the most of these, times the last** | | {} |", cells.join(" | "));
 }
 
 /// With commas between thousands.
