@@ -193,7 +193,7 @@ fn print(found: &[Found], vectors: usize) {
         row(&format!("code and constants, `opt-level = {level}`"), &|it| it.code[at].1);
     }
     row("stack of a call, the largest of all vectors", &|it| it.stack_of_vectors);
-    row("stack of a call, the largest of the table below", &|it| {
+    row("stack of a call, the largest of the others", &|it| {
         it.cases.iter().map(|it| it.2[1]).max().unwrap_or(0)
     });
     row("scratch", &|it| it.first[2]);
