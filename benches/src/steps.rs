@@ -38,10 +38,10 @@ const ROOM: f64 = 8.0;
 /// Calls `run` with the input of this name and size.
 ///
 /// # Panics
-/// Where there is no such input.
-pub fn input(input: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_>)) {
-    let (_, stage) = INPUTS.iter().find(|(name, _)| *name == input).expect("an input");
-    let road = road(input, size);
+/// Where there is no such input, or the size is below 1.
+pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_>)) {
+    let (_, stage) = INPUTS.iter().find(|it| it.0 == name).expect("an input");
+    let road = road(name, size);
     let hardened = Cycle { profile: Profile::HARDENED, ..base(&road, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
@@ -107,7 +107,7 @@ pub fn input(input: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'
     let cells = Grid { resolution: CELL, x: -1.0 - 0.5 * ROOM, y: -0.5 * ROOM, ..cells };
     let at_rest = timed(vec![point(-1.0, 0.0); size as usize]);
     let at_rest = Cycle { ego: Ego { speed: 0.0, ..base.ego }, ..plan(&at_rest) };
-    let cycle = match input {
+    let cycle = match name {
         "ids" => Cycle { tracks: Some(tracks(&same)), ..base },
         "crowd" => Cycle { detection_history: &rows, ..lists(&crowd, &row) },
         "assignment" => lists(&crowd, &line),

@@ -881,7 +881,7 @@ typedef struct MufasaMonitorSettings {
   int64_t sessions_before;
   // How long a cycle may take, ns: what may take longer is refused; INT64_MAX for any time.
   int64_t check_time_ns;
-  // What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
+  // What a step costs on this processor, ps: see `mufasa_monitor_calibrate`.
   uint64_t step_ps;
   // Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
   uint32_t meant;
@@ -1131,8 +1131,8 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
 // 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
-// Takes many steps and returns how many: the longest of several times, in ps, divided by them, is `step_ps` on x86-64; on another
-// processor times what docs/embedded.md says of a step.
+// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. On x86-64
+// that is `step_ps`. On another processor multiply it by the factor of docs/embedded.md.
 uint64_t mufasa_monitor_calibrate(void);
 
 // What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.

@@ -32,7 +32,7 @@ pub struct MufasaMonitorSettings {
     pub sessions_before: i64,
     /// How long a cycle may take, ns: what may take longer is refused; INT64_MAX for any time.
     pub check_time_ns: i64,
-    /// What a step costs on this processor, ps: how long `mufasa_monitor_calibrate` takes, divided by what it returns.
+    /// What a step costs on this processor, ps: see `mufasa_monitor_calibrate`.
     pub step_ps: u64,
     /// Sum of `mufasa_monitor_meant`: settings that are meant although no road vehicle has such; UINT32_MAX for all.
     pub meant: u32,
@@ -81,8 +81,8 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
     }
 }
 
-/// Takes many steps and returns how many: the longest of several times, in ps, divided by them, is `step_ps` on x86-64; on another
-/// processor times what docs/embedded.md says of a step.
+/// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. On x86-64
+/// that is `step_ps`. On another processor multiply it by the factor of docs/embedded.md.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
     Monitor::calibrate()

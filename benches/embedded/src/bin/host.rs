@@ -24,8 +24,8 @@ type Failure = Box<dyn Error>;
 
 /// Of the cases of a smoke test, one of so many vectors.
 const SMOKE: usize = 40;
-/// The size of the inputs whose steps are counted.
-const SIZE: u32 = 128;
+/// The sizes of the inputs whose steps are counted, as in `scripts/steps`.
+const COUNTED: [u32; 3] = [8, 32, 128];
 
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1).collect::<Vec<_>>();
@@ -54,7 +54,7 @@ fn main() -> Result<(), Failure> {
     });
     let found = targets.iter().map(|target| Found::new(&folder.join(target), target, &expected));
     let found = found.collect::<Result<Vec<_>, _>>()?;
-    print(&found, vectors.len());
+    print(&found, [vectors.len(), expected.len() - vectors.len()]);
     Ok(())
 }
 
@@ -86,12 +86,14 @@ fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, u64, &Case<'_>
         return;
     }
     for (name, _) in steps::INPUTS {
-        steps::input(name, SIZE, &mut |stage, cycle| {
-            let task = stage.map_or(Task::Input, Task::Stage);
-            job(name, steps::allowed(stage, cycle), &Case { task, cycle: *cycle });
-        });
+        for size in COUNTED {
+            steps::input(name, size, &mut |stage, cycle| {
+                let task = stage.map_or(Task::Input, Task::Stage);
+                job(name, steps::allowed(stage, cycle), &Case { task, cycle: *cycle });
+            });
+        }
     }
-    steps::input(steps::INPUTS[0].0, SIZE, &mut |_, cycle| {
+    steps::input(steps::INPUTS[0].0, COUNTED[0], &mut |_, cycle| {
         let case = Case { task: Task::Calibrate, cycle: *cycle };
         job("`Monitor::calibrate`", Monitor::calibrate(), &case);
     });
@@ -130,9 +132,12 @@ struct Found {
     code: Vec<(String, u64)>,
     /// Instructions of a loop and as they were counted; bytes of scratch, of all that a monitor is lent, of itself.
     first: Vec<u64>,
-    /// Name, steps, and instructions, bytes of stack and of scratch; of vectors the largest stack alone.
-    cases: Vec<(String, u64, [u64; 3])>,
-    stack_of_vectors: u64,
+    /// Instructions, bytes of stack and of scratch of each workload.
+    workloads: Vec<(String, [u64; 3])>,
+    /// Hundredths of an instruction that a step of an input takes, the most of its sizes; `Monitor::calibrate` is the last.
+    of_a_step: Vec<(String, u64)>,
+    /// The largest of all vectors, and of the others.
+    stacks: [u64; 2],
 }
 
 impl Found {
@@ -149,7 +154,8 @@ impl Found {
         if answers.len() != expected.len() {
             return Err(format!("{target}: {} of {} answers", answers.len(), expected.len()).into());
         }
-        let (mut cases, mut stack_of_vectors) = (Vec::new(), 0);
+        let (mut workloads, mut stacks) = (Vec::new(), [0; 2]);
+        let mut of_a_step: Vec<(String, u64)> = Vec::new();
         for (at, (answer, expected)) in answers.iter().zip(expected).enumerate() {
             let Expected { name, steps, answer: right } = expected;
             let mut parts = answer.splitn(4, ' ');
@@ -159,29 +165,30 @@ impl Found {
             if said != right {
                 return Err(format!("{target}, case {at} {name}: {said}, here: {right}").into());
             }
-            if name.is_empty() {
-                stack_of_vectors = numbers[1].max(stack_of_vectors);
-            } else {
-                cases.push((name.clone(), *steps, numbers));
+            let stack = &mut stacks[usize::from(!name.is_empty())];
+            *stack = numbers[1].max(*stack);
+            if *steps == 0 && !name.is_empty() {
+                workloads.push((name.clone(), numbers));
+            } else if *steps > 0 {
+                let taken = 100 * numbers[0] / steps;
+                match of_a_step.last_mut().filter(|it| it.0 == *name) {
+                    Some((_, most)) => *most = taken.max(*most),
+                    None => of_a_step.push((name.clone(), taken)),
+                }
             }
         }
-        Ok(Self { target: target.to_owned(), code, first, cases, stack_of_vectors })
+        Ok(Self { target: target.to_owned(), code, first, workloads, of_a_step, stacks })
     }
 
-    /// How many times the instructions of a step of `Monitor::calibrate` one takes, at most; tenths, rounded up.
-    fn over_calibrated(&self) -> u64 {
-        let counted = self.cases.iter().filter(|it| it.1 > 0);
-        let of_a_step: Vec<_> = counted.map(|it| 1000 * it.2[0] / it.1).collect();
-        let (Some(calibrated), Some(most)) = (of_a_step.last(), of_a_step.iter().max()) else {
-            return 0;
-        };
-        (10 * most).div_ceil(*calibrated)
+    /// The most instructions of a step, divided by those of a step of `Monitor::calibrate`; in tenths, rounded up.
+    fn factor(&self) -> u64 {
+        let most = self.of_a_step.iter().map(|it| it.1).max().unwrap_or(0);
+        self.of_a_step.last().map_or(0, |calibrated| (10 * most).div_ceil(calibrated.1))
     }
 }
 
 /// The tables of docs/embedded.md.
-fn print(found: &[Found], vectors: usize) {
-    let others = found[0].cases.len();
+fn print(found: &[Found], [vectors, others]: [usize; 2]) {
     println!("{vectors} vectors and {others} others: equal answers.\n");
     let names: Vec<_> = found.iter().map(|it| it.target.as_str()).collect();
     println!("| | {} |\n|---|{}", names.join(" | "), "--:|".repeat(found.len()));
@@ -192,10 +199,8 @@ fn print(found: &[Found], vectors: usize) {
     for (at, (level, _)) in found[0].code.iter().enumerate() {
         row(&format!("code and constants, `opt-level = {level}`"), &|it| it.code[at].1);
     }
-    row("stack of a call, the largest of all vectors", &|it| it.stack_of_vectors);
-    row("stack of a call, the largest of the others", &|it| {
-        it.cases.iter().map(|it| it.2[1]).max().unwrap_or(0)
-    });
+    row("stack of a call, the largest of all vectors", &|it| it.stacks[0]);
+    row("stack of a call, the largest of the others", &|it| it.stacks[1]);
     row("scratch", &|it| it.first[2]);
     row("all that a monitor is lent, scratch included", &|it| it.first[3]);
     row("the monitor itself", &|it| it.first[4]);
@@ -203,22 +208,27 @@ fn print(found: &[Found], vectors: usize) {
     let columns: Vec<_> = names.iter().map(|it| format!("{it}: instructions | stack")).collect();
     println!("\n| one call | scratch | {} |", columns.join(" | "));
     println!("|---|--:|{}", "--:|--:|".repeat(found.len()));
-    for (at, (name, steps, [_, _, scratch])) in found[0].cases.iter().enumerate() {
-        if *steps == 0 {
-            let numbers = found.iter().flat_map(|it| it.cases[at].2[..2].iter().copied());
-            let cells: Vec<_> = numbers.map(grouped).collect();
-            println!("| {name} | {} | {} |", grouped(*scratch), cells.join(" | "));
-        }
+    for (at, (name, [_, _, scratch])) in found[0].workloads.iter().enumerate() {
+        let numbers = found.iter().flat_map(|it| it.workloads[at].1[..2].iter().copied());
+        let cells: Vec<_> = numbers.map(grouped).collect();
+        println!("| {name} | {} | {} |", grouped(*scratch), cells.join(" | "));
     }
-    println!("\n| instructions of a step | steps | {} |", names.join(" | "));
-    println!("|---|--:|{}", "--:|".repeat(found.len()));
-    let tenths = |number: u64| format!("{}.{}", number / 10, number % 10);
-    for (at, (name, steps, _)) in found[0].cases.iter().enumerate().filter(|(_, it)| it.1 > 0) {
-        let cells: Vec<_> = found.iter().map(|it| tenths(10 * it.cases[at].2[0] / steps)).collect();
-        println!("| {name} | {} | {} |", grouped(*steps), cells.join(" | "));
+    if found[0].of_a_step.is_empty() {
+        return;
     }
-    let cells: Vec<_> = found.iter().map(|it| tenths(it.over_calibrated())).collect();
-    println!("| **the most of these, times the last** | | {} |", cells.join(" | "));
+    println!(
+        "\n| instructions of a step | {} |\n|---|{}",
+        names.join(" | "),
+        "--:|".repeat(found.len())
+    );
+    let row = |name: &str, tenths: &dyn Fn(&Found) -> u64| {
+        let cells = found.iter().map(tenths).map(|it| format!("{}.{}", it / 10, it % 10));
+        println!("| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    };
+    for (at, (name, _)) in found[0].of_a_step.iter().enumerate() {
+        row(name, &|it| it.of_a_step[at].1 / 10);
+    }
+    row("**factor**: the most, divided by those of `Monitor::calibrate`", &Found::factor);
 }
 
 /// With commas between thousands.

@@ -37,7 +37,7 @@ duties! {
     Tau: "Set `tau` as A-07 asks.",
         "Add up the four times of A-07";
     CheckTime: "Lend memory and set `check_time` and `step_ps` (A-14).",
-        "Lend less, or measure step_ps by Monitor::calibrate at the slowest clock";
+        "Lend less, or measure step_ps as docs/configuration.md says, at the slowest clock";
     Settings: "Give the settings in their units.",
         "Compare the settings with those of docs/configuration.md";
     Sessions: "Number sessions on over a restart (A-17).",
