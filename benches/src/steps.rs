@@ -30,6 +30,9 @@ pub const INPUTS: [(&str, Option<Stage>); 18] = [
     ("dilated", Some(Stage::V)),
 ];
 
+/// Of each input.
+pub const SIZES: [u32; 3] = [8, 32, 128];
+
 /// Cells of a side of the grid, side of a cell, m, and of the grid, m.
 const SIDE: i64 = 128;
 const CELL: f64 = 0.0625;

@@ -81,8 +81,8 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
     }
 }
 
-/// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. On x86-64
-/// that is `step_ps`. On another processor multiply it by the factor of docs/embedded.md.
+/// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. Multiplied by
+/// the factor of the processor (docs/embedded.md) that is `step_ps`.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
     Monitor::calibrate()

@@ -24,8 +24,6 @@ type Failure = Box<dyn Error>;
 
 /// Of the cases of a smoke test, one of so many vectors.
 const SMOKE: usize = 40;
-/// The sizes of the inputs whose steps are counted, as in `scripts/steps`.
-const COUNTED: [u32; 3] = [8, 32, 128];
 
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1).collect::<Vec<_>>();
@@ -86,14 +84,14 @@ fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, u64, &Case<'_>
         return;
     }
     for (name, _) in steps::INPUTS {
-        for size in COUNTED {
+        for size in steps::SIZES {
             steps::input(name, size, &mut |stage, cycle| {
                 let task = stage.map_or(Task::Input, Task::Stage);
                 job(name, steps::allowed(stage, cycle), &Case { task, cycle: *cycle });
             });
         }
     }
-    steps::input(steps::INPUTS[0].0, COUNTED[0], &mut |_, cycle| {
+    steps::input(steps::INPUTS[0].0, steps::SIZES[0], &mut |_, cycle| {
         let case = Case { task: Task::Calibrate, cycle: *cycle };
         job("`Monitor::calibrate`", Monitor::calibrate(), &case);
     });
