@@ -1131,8 +1131,8 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
 // 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
-// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. On x86-64
-// that is `step_ps`. On another processor multiply it by the factor of docs/embedded.md.
+// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. Multiplied by
+// the factor of the processor (docs/embedded.md) that is `step_ps`.
 uint64_t mufasa_monitor_calibrate(void);
 
 // What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.
