@@ -93,8 +93,13 @@ impl<'a> Contestant<'a> {
 
     /// One stage, the input having been checked before; whether it passes.
     pub fn stage(&mut self, stage: Stage) -> bool {
+        self.outcome(stage) == Outcome::Passed
+    }
+
+    /// The same, and why it fails.
+    pub fn outcome(&mut self, stage: Stage) -> Outcome {
         let mut scratch = Scratch::new(&mut self.rows, &mut self.columns);
-        black_box(&self.valid).stage(stage, &mut scratch) == Outcome::Passed
+        black_box(&self.valid).stage(stage, &mut scratch)
     }
 
     /// Validation and then all five stages, more than any configuration runs in one cycle; ends

@@ -8,16 +8,25 @@ use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
 use crate::numbers::range::smaller;
 
-/// Of H-14: a motion, a piece of the path, a place, a box around places, a pair of a detection and an item, one
-/// that is looked for in other lists (and 1 for each item of a list that is looked into), a segment of the
-/// route.
+/// Steps of H-14: a motion, the boxes around stretches of the path, a walk along the path, an object in numbers with error
+/// bounds.
 pub(crate) const MOTION: u64 = 160;
-pub(crate) const PIECE: u64 = 160;
-pub(crate) const PLACE: u64 = 160;
-pub(crate) const BOX: u64 = 40;
+pub(crate) const STRETCHES: u64 = 320;
+pub(crate) const WALK: u64 = 1200;
+pub(crate) const EXACT: u64 = 2000;
+/// A piece of the path, a place at a node, another place, a box around places.
+pub(crate) const PIECE: u64 = 320;
+pub(crate) const NODE: u64 = 160;
+pub(crate) const PLACE: u64 = 320;
+pub(crate) const BOX: u64 = 48;
+/// A pair of a detection and an item, one that is looked for in other lists (and 1 for each item of a list that is looked
+/// into).
 pub(crate) const PAIR: u64 = 16;
 pub(crate) const SUPPORT: u64 = 64;
+/// An object beside the route, a segment near it, and a place beside the route.
+pub(crate) const BESIDE: u64 = 4096;
 pub(crate) const SEGMENT: u64 = 32;
+pub(crate) const SIDE: u64 = 2112;
 
 /// Sizes of the input of a cycle. Source: `spec/4-arithmetic.md#steps`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -229,15 +238,20 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
         input: sum([product([64, t]), product([t, t]), product([32, p]), product([128, d])]),
         stages: [
             sum([
-                product([64, sum([t, d, items])]),
+                product([1464, t.saturating_add(d)]),
+                product([64, items]),
                 product([3, t, d.saturating_add(items)]),
                 // For each track of the assignment some for each track and column; of at most so many.
                 product([64, many.saturating_add(assignment.saturating_mul(many).isqrt())]),
                 product([3, assignment]),
             ]),
-            sum([product([64, poses]), product([2, s, sum([product([16, p]), k])])]),
-            sum([product([64, p]), product([20, p, t])]),
-            sum([product([64, p]), product([20, p, d])]),
+            sum([
+                product([2048, p]),
+                product([64, k]),
+                product([2, s, sum([product([16, p]), k])]),
+            ]),
+            sum([product([64, p.saturating_add(t)]), product([20, p, t])]),
+            sum([product([64, p.saturating_add(d)]), product([20, p, d])]),
             v,
         ],
         without_detections: if v == 0 { 0 } else { sum([v, product([poses, disks, 340])]) },
@@ -245,11 +259,12 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
             0
         } else {
             sum([
-                product([64, poses]),
+                product([1024, p]),
+                product([224, k]),
                 product([10, k, s]),
                 product([4, d, t.saturating_add(d)]),
-                // One motion more than is too much.
-                product([has_objects, motion(poses, s)]),
+                // What is begun before it is too much.
+                product([has_objects, sum([8192, product([SEGMENT, s])])]),
                 limit.min(fail_safe_work(counts)),
             ])
         },
@@ -265,12 +280,16 @@ fn fail_safe_work(counts: &Counts) -> u64 {
     let longest = if lists == 0 { 1 } else { d.max(1) };
     let motions = sum([tracks, product([2, d, longest]), d]);
     let of_pairs = sum([512, product([8, lists, d])]);
-    sum([product([d, longest, of_pairs]), product([motions, motion(along, cross_sections)])])
+    sum([
+        product([d, longest, of_pairs]),
+        product([motions, motion(along, cross_sections)]),
+        product([SIDE, along]),
+    ])
 }
 
 /// The most that one motion takes.
 fn motion(places: u64, cross_sections: u64) -> u64 {
-    sum([1280, product([768, places]), product([SEGMENT, cross_sections])])
+    sum([10_240, product([1408, places]), product([SEGMENT, cross_sections])])
 }
 
 fn sum<const N: usize>(terms: [u64; N]) -> u64 {

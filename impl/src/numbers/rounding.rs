@@ -122,6 +122,14 @@ impl Real {
         }
     }
 
+    /// a / b of two doubles that are 0 or from 2^-400 to 2^400 in size. What a rounded quotient leaves of a is a double.
+    pub(crate) fn quotient(a: f64, b: f64) -> Self {
+        let hi = a / b;
+        let (product, low) = two_product(hi, b);
+        let lo = ((a - product) - low) / b;
+        Self { hi, lo, err: abs(lo) * (ROUNDING * BOUND_UP) }
+    }
+
     /// The square root of a number that is known to be >= 0. The bound comes from the root itself:
     /// abs(sqrt(a) - s) = abs(a - s^2) / (sqrt(a) + s), unless a may be almost 0.
     pub(crate) fn sqrt(self) -> Self {

@@ -5,7 +5,7 @@
 //! what is compared does. Only what these leave open is compared with error bounds, and these are found
 //! once for all objects.
 
-use crate::cycle::steps::{PLACE, SEGMENT};
+use crate::cycle::steps::{BESIDE, PLACE, SEGMENT, SIDE};
 use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::Ego;
@@ -69,11 +69,12 @@ impl<'c, 'a> Beside<'c, 'a> {
         if lane.is_open == Some(false) || !object.comes_towards && !self.is_straight() {
             return false;
         }
+        work.add(BESIDE);
         //
         let Some((away, needed)) = self.needed(object, lane.hint, work) else { return false };
         lane.has_room_for(away.value(), needed.value()).unwrap_or_else(|| {
             if lane.is_closed_up {
-                let [least, greatest] = self.sides(&lane);
+                let [least, greatest] = self.sides(&lane, work);
                 let room = (least - away).max(away - greatest);
                 return needed.certainly_below(room * away);
             }
@@ -86,14 +87,15 @@ impl<'c, 'a> Beside<'c, 'a> {
     }
 
     /// The least `D_k` - `E_k` and the greatest `D_k` + `E_k`; of a path that may bend too much, everything.
-    fn sides(&mut self, lane: &Lane) -> [Real; 2] {
+    fn sides(&mut self, lane: &Lane, work: &Work) -> [Real; 2] {
         if let Some(sides) = self.sides {
             return sides;
         }
         let pieces = self.path.pieces();
         let mut places = pieces.flat_map(|it| (0..it.count()).map(move |k| it.place(k)));
         let found = places.try_fold([FAR, -FAR], |[least, greatest], place| {
-            let [away, reach] = self.reach(&place, lane)?;
+            work.add(SIDE);
+            let [away, reach] = self.reach(&place, lane).filter(|_| !work.is_too_much())?;
             Some([least.min(away - reach), greatest.max(away + reach)])
         });
         *self.sides.insert(found.unwrap_or([-FAR, FAR]))

@@ -310,6 +310,6 @@ impl Covers {
     /// Whether the object certainly meets the CAV at no place.
     #[inline]
     pub(super) fn miss(&self, object: &Object, clock: &Clock) -> bool {
-        self.all.misses(object, clock) || self.stretches().all(|it| it.cover.misses(object, clock))
+        self.stretches().all(|it| it.cover.misses(object, clock))
     }
 }

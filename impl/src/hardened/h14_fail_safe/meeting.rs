@@ -5,7 +5,7 @@
 
 use core::cell::LazyCell;
 
-use crate::cycle::steps::{BOX, MOTION, PIECE, PLACE};
+use crate::cycle::steps::{BOX, EXACT, NODE, PIECE, PLACE, STRETCHES, WALK};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
@@ -97,9 +97,14 @@ impl<'c, 'a> Meeting<'c, 'a> {
         [range(x, across), range(y, up)]
     }
 
-    /// Whether boxes leave open whether the object meets the CAV: surely not when it does not come near the path
-    /// (H-14.55).
-    pub(super) fn may_be_met(&self, motion: &Motion) -> bool {
+    /// Whether the object misses the box around all places: surely when it does not come near the path (H-14.55).
+    pub(super) fn is_far(&self, motion: &Motion) -> bool {
+        self.covers.all.misses(&self.plainly(motion), &self.clock)
+    }
+
+    /// Whether boxes around stretches leave open whether it meets the CAV.
+    pub(super) fn may_be_met(&self, motion: &Motion, work: &Work) -> bool {
+        work.add(STRETCHES);
         !self.covers.miss(&self.plainly(motion), &self.clock)
     }
 
@@ -108,7 +113,10 @@ impl<'c, 'a> Meeting<'c, 'a> {
     pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
         //
         let (cycle, object) = (self.cycle(), self.plainly(motion));
-        let exact = LazyCell::new(|| Exact::new(cycle, motion));
+        let exact = LazyCell::new(|| {
+            work.add(EXACT);
+            Exact::new(cycle, motion)
+        });
         let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
         let places = places.get_or_insert_with(|| {
             let path = Path::new(*nodes);
@@ -124,7 +132,8 @@ impl<'c, 'a> Meeting<'c, 'a> {
         };
         let met = places.first(&object, boxes, meets)?;
         // H-14.28
-        (met.number < before && !places.is_exempt((&object, &exact), boxes)).then_some(met)
+        let counts = met.number < before && !work.is_too_much();
+        (counts && !places.is_exempt((&object, &exact), boxes)).then_some(met)
     }
 }
 
@@ -166,28 +175,34 @@ impl<'c, 'a> Places<'c, 'a> {
         (covers, clock, work): Boxes<'_>,
         mut find: impl FnMut(&Place) -> Option<T>,
     ) -> Option<T> {
-        work.add(MOTION);
-        let mut done = 0;
-        self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
+        work.add(WALK);
+        let (mut done, mut next) = (0, None);
+        for (start, stretch) in self.starts.iter().zip(covers.stretches()) {
             let [first, last] = stretch.lines;
             if last < done || stretch.cover.misses(object, clock) {
-                return None;
+                continue;
             }
-            let from = first.max(done);
-            done = last.saturating_add(1);
-            let pieces = self.path.pieces_from((*start)?).take(done.saturating_sub(first));
-            pieces.skip(from.saturating_sub(first)).find_map(|piece| {
+            // Where the walk has been already it goes on.
+            let from = next.filter(|_| first < done).or(*start)?;
+            let mut pieces = self.path.pieces_from(from);
+            for piece in (first.max(done)..=last).map_while(|_| pieces.next()) {
                 work.add(PIECE);
+                // What is found when it is too much makes no difference.
                 let misses = |run| {
                     work.add(BOX);
-                    self.run(&piece, run, clock).misses(object, clock)
+                    work.is_too_much() || self.run(&piece, run, clock).misses(object, clock)
                 };
-                piece.first_place(misses, |place| {
-                    work.add(PLACE);
+                let found = piece.first_place(misses, |place| {
+                    work.add(if place.number == piece.first { NODE } else { PLACE });
                     find(place)
-                })
-            })
-        })
+                });
+                if found.is_some() || work.is_too_much() {
+                    return found;
+                }
+            }
+            (done, next) = (last.saturating_add(1), Some(pieces.start));
+        }
+        None
     }
 
     /// The box around some places of a piece.

@@ -35,7 +35,7 @@ impl Motion {
     /// Its velocity, m/s.
     pub(super) fn velocity(&self) -> Vector {
         self.from.map_or(vector(self.now.velocity), |(before, dt_ns)| {
-            let rate = Real::integer(1_000_000_000).over(Real::integer(dt_ns));
+            let rate = Real::quotient(1e9, Real::integer(dt_ns).value());
             Vector::between(before, self.now.centre).times(rate)
         })
     }

@@ -106,7 +106,11 @@ impl Motions<'_, '_, '_> {
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
         self.lists.work.add(MOTION);
         let is_over = self.lists.work.is_too_much();
-        if is_over || !self.meeting.may_be_met(motion) || !counts(self) {
+        if is_over
+            || self.meeting.is_far(motion)
+            || !counts(self)
+            || !self.meeting.may_be_met(motion, &self.lists.work)
+        {
             return;
         }
         if let Some(Met { number, point, compared }) =

@@ -7,17 +7,6 @@ use crate::numbers::rounding::Real;
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
 
 impl<'a> IndexedRoute<'_, 'a> {
-    /// The distance to the reference path in plain doubles, which err by less than 2e-6 m, and a segment that
-    /// is so near.
-    pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
-        let near = self.nearer(q, hint);
-        let start = (self.at_most(q, near), near);
-        self.segments(q, start.0).fold(start, |best, segment| {
-            let away = self.at_most(q, segment.index);
-            if away < best.0 { (away, segment.index) } else { best }
-        })
-    }
-
     /// The distance of a place to the reference path.
     pub(crate) fn nearest(&self, place: Vector, hint: usize) -> Real {
         let (about, _) = self.about([place.x.value(), place.y.value()], hint);

@@ -69,9 +69,9 @@ struct Ends {
     longest: Real,
 }
 
-/// Place k of n on a piece: what part of it is behind.
+/// Place k of n on a piece: what part of it is behind. Both are below 2^53.
 fn share(k: i64, n: i64) -> Real {
-    if n == 1 { Real::integer(k) } else { Real::integer(k).over(Real::integer(n)) }
+    Real::quotient(Real::integer(k).value(), Real::integer(n).value())
 }
 
 /// See `Path::pieces`.
@@ -120,7 +120,6 @@ pub(crate) struct Place {
     pub(crate) progress: Real,
     /// The least progress of the place and its neighbours, from 0 on.
     pub(crate) least: Real,
-    pub(crate) length: Real,
     /// The length at the place after, if there is one.
     pub(crate) after: Option<Real>,
 }
@@ -140,14 +139,14 @@ impl Iterator for Pieces<'_> {
     /// rounding leaves open of `s_stop`.
     fn next(&mut self) -> Option<Piece> {
         let node = self.start.next.take()?;
-        let (Ends { p, h, s_stop, .. }, d, heading) = (self.ends, self.d, vector(node.heading));
+        let (Ends { h, s_stop, .. }, d, heading) = (self.ends, self.d, vector(node.heading));
         let to = self.start.nodes.split_first();
         // H-14.59
         let (u, n, more) = match to {
             Some((to, _)) => {
                 let u = Vector::between(node.at, [to.x, to.y]);
                 // H-14.3
-                let n = steps(node.at[0], to.x, d).max(steps(node.at[1], to.y, d)).max(1);
+                let n = steps(greatest(node.at, [to.x, to.y]), d).max(1);
                 (u, n, u.dot(heading).abs() + u.cross(heading).abs())
             }
             // H-14.5
@@ -155,22 +154,20 @@ impl Iterator for Pieces<'_> {
         };
         // H-14.2
         let gain = u.dot(h);
-        let progress = match to {
-            Some((to, _)) => Vector::between(p, [to.x, to.y]).dot(h),
-            None => node.progress + gain,
-        };
-        let (length, first) = (node.length + more, self.start.first);
+        let (progress, length, first) =
+            (node.progress + gain, node.length + more, self.start.first);
         let (places, end, is_over) = (n, None, false);
         let mut piece = Piece { node, u, gain, more, n, first, places, end, is_over, s_stop };
         let ends = to.is_none() || !progress.certainly_at_most(s_stop);
         let most = if to.is_some() { n } else { i64::MAX };
-        let share = (s_stop - node.progress).over(gain);
-        let is_known = share.off() * Real::integer(n).value() < 0.5;
-        if ends && gain.value() > 0.0 && is_known {
-            // H-14.7
-            piece.places =
-                piece.first_with(share, 1, |k| s_stop.certainly_below(piece.progress(k))).min(most);
-            piece.end = Some(share);
+        if ends && gain.value() > 0.0 {
+            let share = (s_stop - node.progress).over(gain);
+            if share.off() * Real::integer(n).value() < 0.5 {
+                // H-14.7
+                let is_beyond = |k| s_stop.certainly_below(piece.progress(k));
+                piece.places = piece.first_with(share, 1, is_beyond).min(most);
+                piece.end = Some(share);
+            }
         }
         let beyond = piece.first_beyond(self.ends, to.map(|(to, _)| [to.x, to.y]));
         if beyond < piece.places || piece.end.is_none() && to.is_none() {
@@ -189,15 +186,20 @@ impl Iterator for Pieces<'_> {
     }
 }
 
-/// The least n with abs(to - from) <= n d (H-14.3); exact. A quotient in plain doubles is below
-/// 2^33, so that it errs by less than 1e-5; the difference and the product have no error, so that
+/// The greater of the two parts of the way from one point to another; exact.
+fn greatest(from: [f64; 2], to: [f64; 2]) -> Real {
+    let [x, y] = [Real::difference(to[0], from[0]).abs(), Real::difference(to[1], from[1]).abs()];
+    if y.certainly_below(x) { x } else { y }
+}
+
+/// The least n with length <= n d (H-14.3); exact. A quotient in plain doubles is below
+/// 2^33, so that it errs by less than 1e-5; the length, a difference of two doubles, and the product have no error, so that
 /// their order is certain.
 #[allow(clippy::cast_possible_truncation, reason = "below 2^33")]
-fn steps(from: f64, to: f64, d: f64) -> i64 {
-    let nearest = libm::floor((to - from).abs() / d + 0.5);
+fn steps(length: Real, d: f64) -> i64 {
+    let nearest = libm::floor(length.value() / d + 0.5);
     let fewer = nearest as i64;
-    let fits =
-        Real::difference(to, from).abs().certainly_at_most(Real::new(nearest) * Real::new(d));
+    let fits = length.certainly_at_most(Real::new(nearest) * Real::new(d));
     if fits { fewer } else { fewer.saturating_add(1) }
 }
 
@@ -266,12 +268,19 @@ impl Piece {
 
     /// The progress of place k, except the last one.
     fn progress(&self, k: i64) -> Real {
-        self.node.progress + self.gain * share(k, self.n)
+        let Node { progress, .. } = self.node;
+        if k == 0 { progress } else { progress + self.gain * share(k, self.n) }
+    }
+
+    /// The length at a place of this piece (H-14.59).
+    pub(crate) fn length_at(&self, place: &Place) -> Real {
+        self.length(place.number.saturating_sub(self.first))
     }
 
     /// The length at place k.
     fn length(&self, k: i64) -> Real {
-        self.node.length + self.more * self.share(k)
+        let Node { length, .. } = self.node;
+        if k == 0 { length } else { length + self.more * self.share(k) }
     }
 
     /// Place k from the node on (H-14.4), the last one of all with the heading of its piece
@@ -284,15 +293,15 @@ impl Piece {
         let before = if k == 0 { self.node.before } else { progress(k.saturating_sub(1)) };
         let here = progress(k);
         let after = if is_last { here } else { progress(next) };
+        let node = vector(self.node.at);
         Place {
             number: self.first.saturating_add(k),
             pose: Pose {
-                at: vector(self.node.at) + self.u.times(self.share(k)),
+                at: if k == 0 { node } else { node + self.u.times(self.share(k)) },
                 heading: self.node.heading,
             },
             progress: here,
             least: before.min(here).min(after).max(Real::ZERO),
-            length: self.length(k),
             after: (!is_last).then(|| self.length(next)),
         }
     }

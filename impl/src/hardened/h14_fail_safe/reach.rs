@@ -54,18 +54,18 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
                 return None;
             }
             let found = failure(cycle, &path.times, place.pose.at)
-                .or_else(|| length_failure(place, &path.times))
+                .or_else(|| length_failure(piece.length_at(place), &path.times))
                 .or_else(|| heading_failure(cycle, place));
             found.map(|witness| witness.at_point(place.point(points.len())))
         })
     })
 }
 
-fn length_failure(place: &Place, times: &Times<Real>) -> Option<Witness> {
+fn length_failure(length: Real, times: &Times<Real>) -> Option<Witness> {
     // H-14.61
     let longest = longest(times.s_stop);
-    let witness = || Witness::of(Rule::Reach, [place.length, longest].map(Real::value));
-    (!place.length.certainly_at_most(longest)).then(witness)
+    let witness = || Witness::of(Rule::Reach, [length, longest].map(Real::value));
+    (!length.certainly_at_most(longest)).then(witness)
 }
 
 fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {

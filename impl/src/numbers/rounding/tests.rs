@@ -88,6 +88,34 @@ fn bounds_of_lengths_are_tiny() {
     }
 }
 
+/// A quotient of doubles is known much better than the general one, and exactly where it is a double.
+#[test]
+fn quotients_of_doubles() {
+    let mut random = Random::new(38);
+    let mut exact_ones = 0;
+    for _ in 0..40_000 {
+        let mut whole = |bits: u64| {
+            let most = 2 << random.below(bits);
+            1.0 + random.below(most - 1) as f64
+        };
+        let (a, b) = (whole(52) - 1.0, whole(52));
+        let scale = libm::exp2(random.number(300.0).floor());
+        for (a, b) in [(a, b), (a * scale, b), (-a, b * scale)] {
+            let quotient = Real::quotient(a, b);
+            assert!(holds(quotient, &(exact(a) / exact(b))), "{a} / {b}: {quotient:?}");
+            assert!(quotient.err <= quotient.hi.abs() * 1e-31, "{a} / {b}: {quotient:?}");
+            let is_double = exact(quotient.hi) * exact(b) == exact(a);
+            assert_eq!(
+                quotient.err + quotient.lo.abs() == 0.0,
+                is_double,
+                "{a} / {b}: {quotient:?}"
+            );
+            exact_ones += u32::from(is_double);
+        }
+    }
+    assert!((2000..100_000).contains(&exact_ones), "{exact_ones}");
+}
+
 #[test]
 fn integers_and_seconds() {
     for value in [0, 1, -1, 1 << 31, -(1 << 31) - 1, 120_000_000_000, i64::MAX, i64::MIN] {

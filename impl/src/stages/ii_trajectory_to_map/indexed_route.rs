@@ -84,12 +84,25 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         })
     }
 
+    /// The distance to the reference path in plain doubles, which err by less than 2e-6 m, and a segment that
+    /// is so near.
+    pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
+        let near = self.nearer(q, hint);
+        let start = (self.at_most(q, near), near);
+        self.segments(q, start.0).fold(start, |best, segment| {
+            let away = self.at_most(q, segment.index);
+            if away < best.0 { (away, segment.index) } else { best }
+        })
+    }
+
     /// The distance to the reference path; `hint`: index of a segment that may be near. The index
     /// of the segment returned depends on the hint, the distance does not but for its bound.
     pub(crate) fn path_distance(&self, q: [f64; 2], hint: usize) -> (Real, usize) {
         let length = |s: &Segment| segment_distance(q, s.from, s.to);
-        let unknown = (Real::new(f64::MAX), hint);
-        let start = self.segment(hint).map_or(unknown, |segment| (length(&segment), hint));
+        // Else each segment of a path that comes nearer and nearer would be compared with error bounds.
+        let (_, near) = self.about(q, hint);
+        let unknown = (Real::new(f64::MAX), near);
+        let start = self.segment(near).map_or(unknown, |segment| (length(&segment), near));
         let reach = start.0.magnitude();
         self.segments(q, reach).fold(start, |(best, at), segment| {
             if Self::is_farther(q, &segment, best) {

@@ -42,8 +42,8 @@ pub fn of_pairs(scene: &Scene) -> i128 {
 }
 
 /// K being the places that the list has without an end by distance, E those whose progress is above s_stop - delta, and
-/// C the cross sections: 320 for each motion; where it comes near the path, 640 + 400 (K + E) more; where it keeps
-/// beside as well, 320 + 560 K + 400 E + 32 C.
+/// C the cross sections: 320 for each motion; where it comes near the path, 3360 + 528 (K + E) more; where it keeps
+/// beside as well, 5296 + 848 K + 528 E + 32 C more; and 2112 (K + E) once where any does.
 pub fn of_motions(
     scene: &Scene,
     trajectory: &[Point],
@@ -56,15 +56,15 @@ pub fn of_motions(
     let e = places.iter().filter(|place| place.progress > last).count() as i128;
     let c = scene.route.cross_sections.len() as i128;
     let path = extents(scene, trajectory);
-    let of_motion = |motion: &Motion| {
-        if !comes_near(scene, &path, motion) {
-            return 320;
-        }
-        let keeps_beside = beside_route.keeps_beside(scene, motion, is_behind(scene, motion));
-        let beside = if keeps_beside { 320 + 560 * k + 400 * e + 32 * c } else { 0 };
-        320 + 640 + 400 * (k + e) + beside
-    };
-    motions.iter().map(of_motion).sum()
+    let (near, beside) = (3360 + 528 * (k + e), 5296 + 848 * k + 528 * e + 32 * c);
+    let comes_near = motions.iter().filter(|motion| comes_near(scene, &path, motion));
+    let keeps_beside = comes_near
+        .clone()
+        .filter(|motion| beside_route.keeps_beside(scene, motion, is_behind(scene, motion)));
+    let [motions, near_ones, beside_ones] =
+        [motions.len(), comes_near.count(), keeps_beside.count()].map(|count| count as i128);
+    let once = if beside_ones > 0 { 2112 * (k + e) } else { 0 };
+    320 * motions + near * near_ones + beside * beside_ones + once
 }
 
 fn one() -> Real {

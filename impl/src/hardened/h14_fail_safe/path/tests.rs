@@ -3,7 +3,7 @@
 use std::vec::Vec;
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
-use crate::hardened::h14_fail_safe::path::{Path, steps};
+use crate::hardened::h14_fail_safe::path::{Path, greatest, steps};
 use crate::hardened::h14_fail_safe::spot::tests::standing;
 use crate::input::cycle::TrajectoryPoint;
 use crate::input::parameters::Parameters;
@@ -45,19 +45,28 @@ fn there_are_no_more_places_than_are_counted_and_not_many_fewer() {
     assert!(straight > 2_000, "{straight}");
 }
 
-/// H-14.3: 1/10 as a double is 3602879701896397 / 2^55, and lengths from 1/10 on are multiples of 2^-60.
+/// H-14.3, of ways between any two doubles, against integers: all are multiples of 2^-70.
 #[test]
 fn steps_are_exact_beside_each_multiple() {
-    let (d, tenth) = (0.1, 3_602_879_701_896_397_i128);
-    let mut more = 0;
-    for fewer in 1..5000_i16 {
-        let multiple = f64::from(fewer) * d;
-        for to in [multiple.next_down(), multiple, multiple.next_up()] {
-            let fits = (to * libm::exp2(60.0)) as i128 <= i128::from(fewer) * (tenth << 5_u8);
-            let expected = i64::from(fewer) + i64::from(!fits);
-            assert_eq!([steps(0.0, to, d), steps(to, 0.0, d)], [expected; 2], "{to}");
-            more += i64::from(!fits);
+    let units = |it: f64| (it * libm::exp2(70.0)) as i128;
+    let (mut random, mut more) = (Random::new(37), [0; 2]);
+    for _ in 0..20_000 {
+        let d = [0.25, 0.1, 0.01, 0.1 + random.number(0.05)][random.below(4) as usize];
+        let size = [1.0, 100.0, 16_777_000.0][random.below(3) as usize];
+        let near = |it: f64| (it * 1024.0).floor() / 1024.0;
+        let from = [0.0, near(random.number(size)), near(random.number(size)) + d]
+            [random.below(3) as usize];
+        let multiple = from + (1 + random.below(3000)) as f64 * d;
+        for to in [multiple.next_down(), multiple, multiple.next_up(), -multiple] {
+            let (way, d_units) = ((units(to) - units(from)).abs(), units(d));
+            let expected = way / d_units + i128::from(way % d_units > 0);
+            let [there, back] = [[from, to], [to, from]].map(|[a, b]| {
+                let found = [[[0.0, a], [0.0, b]], [[a, 0.0], [b, 0.0]]];
+                found.map(|[a, b]| i128::from(steps(greatest(a, b), d)))
+            });
+            assert_eq!([there, back], [[expected; 2]; 2], "{from}, {to}, {d}");
+            more[usize::from(way % d_units > 0)] += 1;
         }
     }
-    assert!((5000..10_000).contains(&more), "{more}");
+    assert!(more.iter().all(|&it| it > 5000), "{more:?}");
 }

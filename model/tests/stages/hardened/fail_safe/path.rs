@@ -290,7 +290,7 @@ fn an_end_by_distance_makes_no_work_less() {
     let scene = scene(&turn, Reading::Strict);
     let witness = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
     let found = witness.map(|it| (it.rule, it.compared[0].to_string()));
-    assert_eq!(found, Some((Rule::WorkLimit, (320 + 640 + 400 * 14).to_string())));
+    assert_eq!(found, Some((Rule::WorkLimit, (320 + 3360 + 528 * 14).to_string())));
 }
 
 /// H-14.11: the least progress of a place, of the one before it and of the one after it, at least 0.
