@@ -1,15 +1,18 @@
 //! Inputs that are as slow as one of their size can be, for one stage each, and how many steps it may take then
 //! (`spec/4-arithmetic.md#steps`).
 
-use crate::worst::{base, detection, earlier, list, point, timed, track, tracks, trajectory};
+use crate::contestant::Contestant;
+use crate::worst::{
+    NOW_NS, base, detection, earlier, list, point, timed, track, tracks, trajectory,
+};
 use mufasa::cycle::steps::{Counts, most_steps};
-use mufasa::input::cycle::{CrossSection, Cycle, Detection, Ego, Grid, Track};
+use mufasa::input::cycle::{CrossSection, Cycle, Detection, Ego, Grid, Track, TrackList};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::report::Stage;
+use mufasa::report::{Outcome, Rule, Stage};
 
 /// Their names, and what is run: a stage, or the checks of the input.
-pub const INPUTS: [(&str, Option<Stage>); 18] = [
+pub const INPUTS: [(&str, Option<Stage>); 22] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -18,14 +21,18 @@ pub const INPUTS: [(&str, Option<Stage>); 18] = [
     ("turned-history", Some(Stage::I)),
     ("surplus", Some(Stage::I)),
     ("one-place", Some(Stage::I)),
+    ("as-far", Some(Stage::I)),
     ("off-route", Some(Stage::Ii)),
     ("on-route", Some(Stage::Ii)),
     ("along-route", Some(Stage::Ii)),
     ("on-a-line", Some(Stage::Ii)),
+    ("at-rest", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
     ("detections", Some(Stage::Iv)),
     ("moving", Some(Stage::Iv)),
     ("beside-route", Some(Stage::Iv)),
+    ("touching", Some(Stage::Iv)),
+    ("coming", Some(Stage::Iv)),
     ("cells", Some(Stage::V)),
     ("dilated", Some(Stage::V)),
 ];
@@ -47,6 +54,9 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
     let road = road(name, size);
     let hardened = Cycle { profile: Profile::HARDENED, ..base(&road, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
+    if FOUND.contains(&name) {
+        return found(name, size, &base, &mut |cycle| run(*stage, cycle));
+    }
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
     let seen_as = |track: Track| detection(track.x, track.y);
 
@@ -95,7 +105,7 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
         Cycle { tracks, detections, parameters: strict, ..base }
     };
     let fail_safe = Cycle {
-        parameters: Parameters { work_limit: i64::from(size) * 8192, ..Parameters::default() },
+        parameters: Parameters::default(),
         ego: Ego { speed: 20.0, ..base.ego },
         trajectory: Some(trajectory(&along)),
         ..base
@@ -140,7 +150,89 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
         "cells" => Cycle { grid: Some(cells), ..at_rest },
         _ => Cycle { grid: Some(cells), profile: Profile::PAPER, ..at_rest },
     };
-    run(*stage, &cycle);
+    let is_fail_safe = *stage == Some(Stage::Iv) && cycle.profile == Profile::HARDENED;
+    run(*stage, &if is_fail_safe { just_enough(&cycle) } else { cycle });
+}
+
+/// Inputs that a search found (`CHANGELOG.md`, 0.4.0).
+const FOUND: [&str; 4] = ["as-far", "at-rest", "touching", "coming"];
+
+fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>)) {
+    let Ego { x, y, .. } = base.ego;
+    let numbered =
+        |count: u32, at: &dyn Fn(i64) -> Track| (0..i64::from(count)).map(at).collect::<Vec<_>>();
+    let touching = 0.5 * (base.ego.width + 1.8);
+    let base =
+        &Cycle { parameters: Parameters::default(), ego: Ego { speed: 10.0, ..base.ego }, ..*base };
+    match name {
+        // Just as far as the farthest detection, and carried forward: compared in integers.
+        "as-far" => {
+            let items = numbered(size, &|id| track(id, x - 3.0, y - 4.0));
+            let (items, seen) = (
+                TrackList { stamp_ns: NOW_NS - 37_000_001, items: &items },
+                [detection(x + 3.0, y + 4.0)],
+            );
+            run(&Cycle { tracks: Some(items), detections: Some(list(&seen)), ..*base });
+        }
+        // Many points for few cross sections.
+        "at-rest" => {
+            let points =
+                timed(places(size, 1e-3).map(|along| point(x + along, y + 1e-7)).collect());
+            let ego = Ego { speed: 0.0, ..base.ego };
+            run(&Cycle { ego, trajectory: Some(trajectory(&points)), ..*base });
+        }
+        // Tracks that stand 6 nm beside all places, so that each place is asked about.
+        "touching" => {
+            let points = timed(places(size, 0.5).map(|along| point(x + along, y)).collect());
+            let standing = |id| Track { length: 100.0, ..track(id, x, y + touching + 6e-9) };
+            let items = numbered(size, &standing);
+            run(&just_enough(&Cycle {
+                tracks: Some(tracks(&items)),
+                detections: Some(list(&[])),
+                trajectory: Some(trajectory(&points)),
+                ..*base
+            }));
+        }
+        // Long things that come nearer beside the CAV, which stands: each from where any of them was.
+        _ => {
+            let points = timed(vec![point(x, y); 2]);
+            let at = |ago: f64| {
+                let (along, aside) = (x - 0.9 * ago, y - touching - 1.0 - 0.5 * ago);
+                let item = Detection { length: 100.0, ..detection(along, aside) };
+                vec![item; size as usize / 4 + 2]
+            };
+            let [now, before @ ..] = [0.0, 0.3, 0.5, 0.8].map(at);
+            let [a, b, c] = &before;
+            let seen = [earlier(a, 300), earlier(b, 500), earlier(c, 800)];
+            let standing = Cycle { ego: Ego { speed: 0.0, ..base.ego }, ..*base };
+            let detections = Some(list(&now));
+            let trajectory = Some(trajectory(&points));
+            run(&just_enough(&Cycle {
+                detections,
+                detection_history: &seen,
+                trajectory,
+                ..standing
+            }));
+        }
+    }
+}
+
+/// With as much work for H-14 as it takes.
+fn just_enough<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
+    let with = |work_limit| {
+        let parameters = Parameters { work_limit, ..cycle.parameters };
+        Cycle { parameters, ..*cycle }
+    };
+    let is_too_little = |work_limit| {
+        let outcome = Contestant::new(&with(work_limit)).outcome(Stage::Iv);
+        matches!(outcome, Outcome::Failed(witness) if witness.rule == Rule::WorkLimit)
+    };
+    let (mut too_little, mut enough) = (-1, 1 << 40);
+    while enough - too_little > 1 {
+        let middle = i64::midpoint(too_little, enough);
+        *if is_too_little(middle) { &mut too_little } else { &mut enough } = middle;
+    }
+    with(enough)
 }
 
 /// How many steps a stage may take, or the checks of the input.

@@ -30,6 +30,11 @@ static struct MufasaMonitorSettings settings(void) {
   return it;
 }
 
+static uint64_t a_tenth_later(void *context) {
+  uint64_t *now = context;
+  return *now += 100000;
+}
+
 static MufasaStatus make(const struct MufasaMonitorSettings *it, struct MufasaMonitor **monitor) {
   memset(memory, 0x55, sizeof memory);
   const size_t bytes = mufasa_monitor_bytes(it);
@@ -362,7 +367,9 @@ static void a_status_of_the_settings_has_a_field(void) {
   it = settings();
   it.check_time_ns = 1000;
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_TOO_SLOW && monitor == NULL);
-  EXPECT(mufasa_monitor_calibrate() > 10000);
+  uint64_t now = 0;
+  EXPECT(mufasa_monitor_calibrate(a_tenth_later, &now) == 1000 && now == 400000);
+  EXPECT(mufasa_monitor_calibrate(NULL, NULL) == 0);
   it = settings();
   it.stages.a_b = 80;
   problem = is_about(&it, MUFASA_STATUS_UNUSUAL, "stages.a_b");

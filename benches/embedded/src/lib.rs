@@ -17,7 +17,7 @@ use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::monitor::Monitor;
+use mufasa::monitor::Work;
 use mufasa::report::{Outcome, Stage};
 
 pub use bytes::Bytes;
@@ -34,8 +34,8 @@ pub enum Task {
     Input,
     /// One stage alone, with these indexes and that of the current detections.
     Stage(Stage),
-    /// `Monitor::calibrate`, whatever the cycle.
-    Calibrate,
+    /// A kind of work of `Monitor::calibrate`, whatever the cycle.
+    Calibrate(Work),
 }
 
 /// A cycle and what is asked of it.
@@ -72,10 +72,10 @@ impl Case<'_> {
             kept = cycle.detection_history.iter().map(index).collect();
             slots = vec![Slot::EMPTY; cycle.detections.map_or(0, |list| list.items.len())];
         }
-        if *task == Task::Calibrate {
-            let mut taken = 0;
-            measure(&mut || taken = Monitor::calibrate());
-            return (0, format!("{taken}"));
+        if let Task::Calibrate(work) = *task {
+            let mut outcome = Outcome::NotScheduled;
+            measure(&mut || outcome = work.run());
+            return (0, format!("{outcome:?}"));
         }
         if let Task::Stage(stage) = *task {
             if !kept.is_empty() {

@@ -1,15 +1,15 @@
 //! `steps INPUT SIZE`: one call of one stage on an input that is as slow as one of its size can be, in a
 //! function of its own, whose instructions `scripts/steps` counts; prints how many steps it may take
-//! (`spec/4-arithmetic.md#steps`). `steps times`: how long a step of each takes on this processor, and by how much
-//! `Monitor::calibrate` measures too little. Without arguments: the inputs.
+//! (`spec/4-arithmetic.md#steps`). `steps times`: how long a step of each takes on this processor, and what
+//! `Monitor::calibrate` says. Without arguments: the inputs.
 
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
 use mufasa::input::cycle::Cycle;
-use mufasa::monitor::Monitor;
-use mufasa::report::Stage;
+use mufasa::monitor::{Monitor, Work};
+use mufasa::report::{Outcome, Stage};
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::steps::{INPUTS, SIZES, allowed, input};
 
@@ -18,7 +18,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => all().for_each(|(name, size)| println!("{name} {size}")),
         ["times"] => times(),
-        ["calibrate", _] => println!("{} passes", calibrated()),
+        ["calibrate", kind] => {
+            let work =
+                Work::ALL.into_iter().find(|work| format!("{work:?}") == kind).ok_or(kind)?;
+            measured(&mut || work.run() == Outcome::Passed);
+            println!("{}", Work::STEPS);
+        }
         [name, size] => input(name, size.parse()?, &mut |stage, cycle| {
             let passed = run(stage, cycle)();
             println!("{} {}", allowed(stage, cycle), if passed { "passes" } else { "fails" });
@@ -28,10 +33,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The inputs in each size, and `calibrate`, which has none.
-fn all() -> impl Iterator<Item = (&'static str, u32)> {
-    let inputs = INPUTS.into_iter().flat_map(|(name, _)| SIZES.map(|size| (name, size)));
-    inputs.chain([("calibrate", 0)])
+/// The inputs in each size, and the kinds of work of `calibrate`.
+fn all() -> impl Iterator<Item = (&'static str, String)> {
+    let sizes = |name| SIZES.map(|size| (name, size.to_string()));
+    let inputs = INPUTS.into_iter().flat_map(move |(name, _)| sizes(name));
+    inputs.chain(Work::ALL.map(|work| ("calibrate", format!("{work:?}"))))
 }
 
 /// A call of the stage, or of the checks of the input.
@@ -43,15 +49,6 @@ fn run<'a>(stage: Option<Stage>, cycle: &'a Cycle<'a>) -> impl FnMut() -> bool {
             Some(stage) => it.stage(stage),
         })
     }
-}
-
-fn calibrated() -> u64 {
-    let mut taken = 0;
-    measured(&mut || {
-        taken = Monitor::calibrate();
-        true
-    });
-    taken
 }
 
 /// What is counted.
@@ -73,12 +70,14 @@ fn times() {
             });
         }
     }
-    let calibrate = shortest(Monitor::calibrate(), calibrated);
+    let began = Instant::now();
+    let now_ns = || u64::try_from(began.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    let calibrate = (0..50).map(|_| Monitor::calibrate(now_ns)).min().map_or(1, u128::from);
     let ((name, size, ps), arch) = (slowest, std::env::consts::ARCH);
     let hundredths = 100 * ps / calibrate;
     println!(
-        "{arch}: a step of `Monitor::calibrate` takes {calibrate} ps, one of the slowest input (`{name}`, {size}) {ps} ps: \
-         factor {}.{:02}.",
+        "{arch}: `Monitor::calibrate` says {calibrate} ps; a step of the slowest input (`{name}`, {size}) takes {ps} ps, \
+         {}.{:02} of that.",
         hundredths / 100,
         hundredths % 100
     );

@@ -1,6 +1,6 @@
 //! What a monitor is made with.
 
-use core::ffi::{CStr, c_char};
+use core::ffi::{CStr, c_char, c_void};
 use core::time::Duration;
 
 use mufasa::monitor::{Monitor, MonitorError, Settings, Stall};
@@ -67,8 +67,8 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
         requester: mufasa::offloading::requester::Parameters::default().into(),
         period_ns,
         sessions_before: 0,
-        check_time_ns: 10_000_000,
-        step_ps: 750,
+        check_time_ns: 15_000_000,
+        step_ps: 1000,
         meant: 0,
         supervise_local: 0,
         stall_way_m: 1.0,
@@ -81,11 +81,14 @@ pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonit
     }
 }
 
-/// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. Multiplied by
-/// the factor of the processor (docs/embedded.md) that is `step_ps`.
+/// What a step costs on this processor, ps: `step_ps`. It times work by a monotonic clock in ns that tells microseconds apart, which is
+/// called with `context`. Take the greatest of several answers. 0 where `now_ns` is null.
 #[unsafe(no_mangle)]
-pub extern "C" fn mufasa_monitor_calibrate() -> u64 {
-    Monitor::calibrate()
+pub extern "C" fn mufasa_monitor_calibrate(
+    now_ns: Option<extern "C" fn(context: *mut c_void) -> u64>,
+    context: *mut c_void,
+) -> u64 {
+    now_ns.map_or(0, |now_ns| Monitor::calibrate(|| now_ns(context)))
 }
 
 /// What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.

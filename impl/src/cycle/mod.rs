@@ -36,7 +36,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 ///
 /// Usually each stage is linear in its lists; at most it takes the steps that [`most_steps`](steps::most_steps) counts by their
-/// sizes, each of at most 10 instructions.
+/// sizes, each of at most 10 instructions of x86-64.
 // IMPL-08
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     check_with(cycle, &Indexes::default(), scratch)

@@ -32,6 +32,7 @@ mod time;
 mod unusual;
 
 pub use self::advice::Advice;
+pub use self::calibration::Work;
 pub use self::decision::{Brake, Decision, Verified};
 pub use self::element::{Accepted, Arrival, DropReason, Message};
 pub use self::inputs::{Gap, GridMap, Inputs};
@@ -115,11 +116,11 @@ impl<'a> Monitor<'a> {
         })
     }
 
-    /// Takes about 10^5 steps and says how many: measure how long it takes, several times, on the processor
-    /// and with the build that the vehicle uses. The longest time in ps, divided by these steps, is
-    /// `Settings::step_ps`. Source: `spec/4-arithmetic.md#steps`.
-    pub fn calibrate() -> u64 {
-        calibration::run()
+    /// What a step costs by this clock, in ps: `Settings::step_ps`. The clock is monotonic, in nanoseconds, and tells microseconds
+    /// apart. Take the greatest of several answers, on the processor, at the clock rate and with the build that the vehicle
+    /// uses. Source: `spec/4-arithmetic.md#steps`.
+    pub fn calibrate(now_ns: impl FnMut() -> u64) -> u64 {
+        calibration::step_ps(now_ns)
     }
 
     /// From now on the CAV follows this route, of which a copy is kept. Where it ends before the CAV can stop

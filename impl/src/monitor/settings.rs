@@ -67,8 +67,8 @@ impl Settings {
             sessions_before: 0,
             supervise_local: false,
             stall: None,
-            check_time: Duration::from_millis(10),
-            step_ps: 750,
+            check_time: Duration::from_millis(15),
+            step_ps: 1000,
             meant: 0,
         }
     }

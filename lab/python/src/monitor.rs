@@ -64,8 +64,8 @@ impl Monitor {
     #[pyo3(signature = (
         period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
         sessions_before = SessionsBefore(0), most_stations = MostStations(64), check_time = None,
-        step_ps = StepPs(750), meant = Vec::new()
-    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=750, meant=())")]
+        step_ps = StepPs(1000), meant = Vec::new()
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=1000, meant=())")]
     fn new(
         period: Period,
         profile: OneProfile,

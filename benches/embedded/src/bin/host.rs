@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mufasa::input::profile::Profile;
-use mufasa::monitor::Monitor;
+use mufasa::monitor::Work;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::steps;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
@@ -92,8 +92,10 @@ fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, u64, &Case<'_>
         }
     }
     steps::input(steps::INPUTS[0].0, steps::SIZES[0], &mut |_, cycle| {
-        let case = Case { task: Task::Calibrate, cycle: *cycle };
-        job("`Monitor::calibrate`", Monitor::calibrate(), &case);
+        for work in Work::ALL {
+            let case = Case { task: Task::Calibrate(work), cycle: *cycle };
+            job("`Monitor::calibrate`", Work::STEPS, &case);
+        }
     });
 }
 
@@ -132,14 +134,15 @@ struct Found {
     first: Vec<u64>,
     /// Instructions, bytes of stack and of scratch of each workload.
     workloads: Vec<(String, [u64; 3])>,
-    /// Hundredths of an instruction that a step of an input takes, the most of its sizes; `Monitor::calibrate` is the last.
+    /// Hundredths of an instruction that a step of an input takes, the most of its sizes; last the kinds of work of
+    /// `Monitor::calibrate`, the more of them.
     of_a_step: Vec<(String, u64)>,
     /// The largest of all vectors, and of the others.
     stacks: [u64; 2],
 }
 
 impl Found {
-    /// Errors: another answer than that of this machine.
+    /// Errors: another answer than that of this machine; a step that takes more than `Monitor::calibrate` says.
     fn new(folder: &Path, target: &str, expected: &[Expected]) -> Result<Self, Failure> {
         let code = fs::read_to_string(folder.join("code"))?;
         let code = code.lines().filter_map(|line| line.split_once(' '));
@@ -175,13 +178,13 @@ impl Found {
                 }
             }
         }
+        let calibrated = of_a_step.last().map_or(0, |it| it.1);
+        if let Some((name, taken)) = of_a_step.iter().find(|it| it.1 > calibrated) {
+            let problem =
+                format!("{target}: a step of {name} takes {taken}, of calibrate {calibrated}");
+            return Err(problem.into());
+        }
         Ok(Self { target: target.to_owned(), code, first, workloads, of_a_step, stacks })
-    }
-
-    /// The most instructions of a step, divided by those of a step of `Monitor::calibrate`; in tenths, rounded up.
-    fn factor(&self) -> u64 {
-        let most = self.of_a_step.iter().map(|it| it.1).max().unwrap_or(0);
-        self.of_a_step.last().map_or(0, |calibrated| (10 * most).div_ceil(calibrated.1))
     }
 }
 
@@ -226,7 +229,6 @@ fn print(found: &[Found], [vectors, others]: [usize; 2]) {
     for (at, (name, _)) in found[0].of_a_step.iter().enumerate() {
         row(name, &|it| it.of_a_step[at].1 / 10);
     }
-    row("**factor**: the most, divided by those of `Monitor::calibrate`", &Found::factor);
 }
 
 /// With commas between thousands.

@@ -13,7 +13,7 @@ use crate::numbers::plane::{Vector, distance_to_segment, from_segment};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rectangle::Rectangle;
 use crate::numbers::rounding::Real;
-use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
+use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment, plain_square};
 use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::{footprint, vector};
 
@@ -281,15 +281,14 @@ fn extents(
     (centre, away): ([f64; 2], f64),
 ) -> [f64; 2] {
     let (mut most, mut least) = (0.0, f64::MAX);
-    for Segment { from, to, index } in route.segments(centre, away + ERROR) {
-        if route.at_most(centre, index) > away + ERROR {
-            continue;
-        }
-        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+    let reach = away + ERROR;
+    let near = route.segments(centre, reach);
+    near.filter(|it| plain_square(centre, it) <= reach * reach).for_each(|segment| {
+        let (x, y) = (segment.to[0] - segment.from[0], segment.to[1] - segment.from[1]);
         let (along, across) = ((cos * x + sin * y).abs(), (cos * y - sin * x).abs());
         let extent = 0.5 * (along * ego.width + across * ego.length) / libm::sqrt(x * x + y * y);
         (most, least) = (larger(most, extent), smaller(least, extent));
-    }
+    });
     [most, least]
 }
 

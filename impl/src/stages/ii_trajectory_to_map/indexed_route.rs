@@ -88,11 +88,12 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
     /// is so near.
     pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
         let near = self.nearer(q, hint);
-        let start = (self.at_most(q, near), near);
-        self.segments(q, start.0).fold(start, |best, segment| {
-            let away = self.at_most(q, segment.index);
-            if away < best.0 { (away, segment.index) } else { best }
-        })
+        let reach = self.at_most(q, near);
+        let nearest = self.segments(q, reach).fold((f64::MAX, near), |best, segment| {
+            let square = plain_square(q, &segment);
+            if square < best.0 { (square, segment.index) } else { best }
+        });
+        (self.at_most(q, nearest.1), nearest.1)
     }
 
     /// The distance to the reference path; `hint`: index of a segment that may be near. The index
