@@ -217,8 +217,8 @@ fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>
     }
 }
 
-/// With as much work for H-14 as it takes.
-fn just_enough<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
+/// The cycle with as much work for H-14 as it takes.
+pub fn just_enough<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
     let with = |work_limit| {
         let parameters = Parameters { work_limit, ..cycle.parameters };
         Cycle { parameters, ..*cycle }

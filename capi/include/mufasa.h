@@ -553,7 +553,7 @@ typedef struct MufasaParameters {
   // Default: 3.0
   double a_yield;
   // Stage i fails rather than begin an assignment of more steps than this, H-14 once it has taken more.
-  // Default: 340_000
+  // Default: 700_000
   int64_t work_limit;
   // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
   // Default: 1e-6
@@ -1131,9 +1131,10 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
 // 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 
-// Takes many steps and returns how many. Measure its time in ps several times, and divide the longest by what it returns. Multiplied by
-// the factor of the processor (docs/embedded.md) that is `step_ps`.
-uint64_t mufasa_monitor_calibrate(void);
+// What a step costs on this processor, ps: `step_ps`. It times work by a monotonic clock in ns that tells microseconds apart, which is
+// called with `context`. Take the greatest of several answers. 0 where `now_ns` is null.
+uint64_t mufasa_monitor_calibrate(uint64_t (*now_ns)(void *context),
+                                  void *context);
 
 // What `meant` has of a setting, such as "stages.a_b"; 0 of a name that there is not.
 //

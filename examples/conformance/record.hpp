@@ -33,7 +33,7 @@ struct Parameters {
   double t_yield = 2.0, a_yield = 3.0;
   double delta = 1e-6;
   std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 4, step_max_ns = 200000000,
-               work_limit = 340000;
+               work_limit = 700000;
 };
 struct Cycle {
   Parameters parameters;

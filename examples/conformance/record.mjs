@@ -16,7 +16,7 @@ const BOX = { x: POSITION, y: POSITION, length: SIZE, width: SIZE };
 const PARAMETERS = {
   theta_tr: [0.2, THRESHOLD], theta_map: [0.3, THRESHOLD], theta_obj: [5, THRESHOLD],
   a_b: [8, RATE], safety_time: [1.8, SECONDS], max_age_ns: [100_000_000n, [0n, MINUTE]],
-  n: [4n, [1n, 64n]], work_limit: [340_000n, [0n, LAST]], delta: [1e-6, [1e-8, 1e-2]],
+  n: [4n, [1n, 64n]], work_limit: [700_000n, [0n, LAST]], delta: [1e-6, [1e-8, 1e-2]],
   theta_track_max: [1, THRESHOLD], miss_budget: [4n, [0n, 64n]], tau: [0.1, SECONDS],
   a_max: [3, RATE], start_tolerance: [2, THRESHOLD], v_max: [150, ABOVE_ZERO],
   step_max_ns: [200_000_000n, [0n, MINUTE]], theta_velocity: [2, ABOVE_ZERO],

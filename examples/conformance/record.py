@@ -22,7 +22,7 @@ PARAMETERS = {
     "step_max_ns": (200_000_000, (0, S60)), "theta_velocity": (2.0, POSITIVE),
     "lateral_tolerance": (0.5, THRESHOLD),
     "v_object": (70.0, POSITIVE), "t_yield": (2.0, (0.0, 60.0)), "a_yield": (3.0, (0.1, 100.0)),
-    "work_limit": (340_000, (0, 2**63 - 1)),
+    "work_limit": (700_000, (0, 2**63 - 1)),
     "delta": (1e-6, (1e-8, 1e-2))}
 TIMES = {"t_wait_ns": 10_000_000_000, "request_timeout_ns": 500_000_000, "l_max_ns": 50_000_000,
          "dt_max_ns": 100_000_000}

@@ -49,7 +49,7 @@ macro_rules! parameters {
             /// H-14: how hard they brake then, m/s^2.
             a_yield: f64 = 3.0 in [0.1, 100.0];
             /// Stage i fails rather than begin an assignment of more steps than this, H-14 once it has taken more.
-            work_limit: i64 = 340_000 in [0, i64::MAX];
+            work_limit: i64 = 700_000 in [0, i64::MAX];
             /// Margin of the strict and the lax model, m; no verdict of this crate depends on it.
             delta: f64 = 1e-6 in [1e-8, 1e-2];
         }

@@ -47,7 +47,7 @@ macro_rules! parameters {
             /// H-14: how hard others brake for a standing CAV, m/s^2.
             a_yield: f64 = 3.0 in 0.1..=100.0;
             /// Stage i, H-14: the strict reading fails when the assignment, or H-14, takes more work.
-            work_limit: i64 = 340_000 in 0..=i64::MAX;
+            work_limit: i64 = 700_000 in 0..=i64::MAX;
             /// Margin of the strict and the lax reading, m (`spec/4-arithmetic.md#strict-and-lax`).
             delta: f64 = 1e-6 in 1e-8..=1e-2;
         }

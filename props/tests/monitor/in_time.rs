@@ -296,8 +296,8 @@ fn the_steps_of_a_cycle_are_those_of_the_table() {
             64 * t + t * t + 32 * p + 128 * d,
             1464 * (t + d) + 64 * u + 3 * t * (d + u) + 64 * (m + (w * m).isqrt()) + 3 * w,
             2048 * p + 64 * k + 32 * p * s + 2 * k * s,
-            64 * (p + t) + 20 * p * t,
-            64 * (p + d) + 20 * p * d,
+            128 * p + 64 * t + 20 * p * t,
+            128 * p + 64 * d + 20 * p * d,
             v,
             if q == 0 { 0 } else { v + 340 * n * (p + k) },
         ];

@@ -84,8 +84,8 @@ impl PairSum {
         Self { limits, error, sum: 0.0, paired: 0, left: 0 }
     }
 
-    /// Whether one more pair fits, of a track that is gated or may be (`Gate::admits`). One of the second kind is
-    /// below the limit of the mean: with it and without it the others decide.
+    /// Whether one more pair fits, of a track that is gated or may be (`Gate::admits`). One of the second kind has to be
+    /// below `theta_tr` itself: then it cannot lift the mean of the others to `theta_tr`, whether it counts or not.
     pub(crate) fn pair(&mut self, is_gated: Option<bool>, metres: f64) -> bool {
         if is_gated.is_none() {
             return self.is_mean_below(metres, 1.0);
