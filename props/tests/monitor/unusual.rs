@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{MonitorError, Settings, Unusual};
+use mufasa::monitor::{Monitor, MonitorError, Settings, Unusual};
 
 use super::kit::settings;
 
@@ -64,8 +64,19 @@ fn slips() -> Vec<(&'static str, Settings)> {
         it.requester.dt_max_ns = 1_500_000_000;
     });
     slip("step_ps", |it| it.step_ps = 0);
+    // The clock of `calibrate` counts microseconds: 100 of them for 10^5 steps.
+    slip("step_ps", |it| it.step_ps = Monitor::calibrate(microseconds()));
     slip("requester.dt_max_ns", |it| it.requester.dt_max_ns = 120_000_000_000);
     slips
+}
+
+/// A clock that tells 100 us for each kind of work, in us.
+fn microseconds() -> impl FnMut() -> u64 {
+    let mut now = 0;
+    move || {
+        now += 100;
+        now
+    }
 }
 
 /// IMPL-14, IMPL-15: each slip is refused by its name and taken when it is named; the text has the same ranges.
