@@ -154,7 +154,7 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
     run(*stage, &if is_fail_safe { just_enough(&cycle) } else { cycle });
 }
 
-/// Inputs that a search found (`CHANGELOG.md`, 0.4.0).
+/// Inputs like those that `slow` found.
 const FOUND: [&str; 4] = ["as-far", "at-rest", "touching", "coming"];
 
 fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>)) {

@@ -9,7 +9,7 @@ use mufasa::input::cycle::{
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::monitor::Work;
+use mufasa::monitor::Calibration;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 
@@ -70,7 +70,7 @@ choices! {
     Task: [
         Task::Check, Task::Kept, Task::Stage(Stage::I), Task::Stage(Stage::Ii), Task::Stage(Stage::Iii),
         Task::Stage(Stage::Iv), Task::Stage(Stage::V), Task::Input,
-        Task::Calibrate(Work::Motions), Task::Calibrate(Work::Assignment),
+        Task::Calibrate(Calibration::Motions), Task::Calibrate(Calibration::Assignment),
     ];
 }
 

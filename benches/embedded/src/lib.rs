@@ -17,7 +17,7 @@ use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::monitor::Work;
+use mufasa::monitor::Calibration;
 use mufasa::report::{Outcome, Stage};
 
 pub use bytes::Bytes;
@@ -35,7 +35,7 @@ pub enum Task {
     /// One stage alone, with these indexes and that of the current detections.
     Stage(Stage),
     /// A kind of work of `Monitor::calibrate`, whatever the cycle.
-    Calibrate(Work),
+    Calibrate(Calibration),
 }
 
 /// A cycle and what is asked of it.

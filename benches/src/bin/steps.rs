@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use mufasa::input::cycle::Cycle;
-use mufasa::monitor::{Monitor, Work};
+use mufasa::monitor::{Calibration, Monitor};
 use mufasa::report::{Outcome, Stage};
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::steps::{INPUTS, SIZES, allowed, input};
@@ -19,10 +19,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         [] => all().for_each(|(name, size)| println!("{name} {size}")),
         ["times"] => times(),
         ["calibrate", kind] => {
-            let work =
-                Work::ALL.into_iter().find(|work| format!("{work:?}") == kind).ok_or(kind)?;
+            let work = Calibration::ALL
+                .into_iter()
+                .find(|work| format!("{work:?}") == kind)
+                .ok_or(kind)?;
             measured(&mut || work.run() == Outcome::Passed);
-            println!("{}", Work::STEPS);
+            println!("{}", Calibration::STEPS);
         }
         [name, size] => input(name, size.parse()?, &mut |stage, cycle| {
             let passed = run(stage, cycle)();
@@ -37,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn all() -> impl Iterator<Item = (&'static str, String)> {
     let sizes = |name| SIZES.map(|size| (name, size.to_string()));
     let inputs = INPUTS.into_iter().flat_map(move |(name, _)| sizes(name));
-    inputs.chain(Work::ALL.map(|work| ("calibrate", format!("{work:?}"))))
+    inputs.chain(Calibration::ALL.map(|work| ("calibrate", format!("{work:?}"))))
 }
 
 /// A call of the stage, or of the checks of the input.

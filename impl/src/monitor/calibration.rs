@@ -20,16 +20,16 @@ const TRACKS: usize = 26;
 const DETECTIONS: usize = 42;
 const POINTS: usize = 10;
 
-/// A kind of work whose time is measured. Source: `spec/4-arithmetic.md#steps`.
+/// A kind of work that is timed. Source: `spec/4-arithmetic.md#steps`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Work {
+pub enum Calibration {
     /// H-14: numbers with error bounds.
     Motions,
     /// Stage i: 64-bit integers.
     Assignment,
 }
 
-impl Work {
+impl Calibration {
     /// All kinds. Source: `spec/4-arithmetic.md#steps`.
     pub const ALL: [Self; 2] = [Self::Motions, Self::Assignment];
 
@@ -49,12 +49,12 @@ impl Work {
 /// What a step costs by this clock, ps, rounded up: of the slower kind of work.
 pub(super) fn step_ps(mut now_ns: impl FnMut() -> u64) -> u64 {
     let mut slowest = 0;
-    for work in Work::ALL {
+    for work in Calibration::ALL {
         let began = now_ns();
         black_box(black_box(work).run());
         slowest = now_ns().saturating_sub(began).max(slowest);
     }
-    slowest.saturating_mul(1000).div_ceil(Work::STEPS)
+    slowest.saturating_mul(1000).div_ceil(Calibration::STEPS)
 }
 
 /// Tracks that stand 6 nm beside all places of the CAV, so that each place is asked about.
@@ -130,9 +130,10 @@ fn nanoseconds(at: usize) -> i64 {
 fn number(at: usize) -> f64 {
     f64::from(u8::try_from(at).unwrap_or(0))
 }
+
 #[cfg(test)]
 mod tests {
-    use super::{Work, step_ps};
+    use super::{Calibration, step_ps};
     use crate::report::{Outcome, Rule};
 
     /// A clock that goes on by so many nanoseconds from asked to asked.
@@ -153,8 +154,10 @@ mod tests {
     /// Each kind comes to the end of what it is for.
     #[test]
     fn the_work_is_done() {
-        assert_eq!(Work::Motions.run(), Outcome::Passed);
-        let Outcome::Failed(witness) = Work::Assignment.run() else { panic!("no assignment") };
+        assert_eq!(Calibration::Motions.run(), Outcome::Passed);
+        let Outcome::Failed(witness) = Calibration::Assignment.run() else {
+            panic!("no assignment")
+        };
         assert_eq!(witness.rule, Rule::MeanCost);
         assert!((12.0..14.0).contains(&witness.compared[0]), "{witness:?}");
     }

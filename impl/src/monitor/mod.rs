@@ -32,7 +32,7 @@ mod time;
 mod unusual;
 
 pub use self::advice::Advice;
-pub use self::calibration::Work;
+pub use self::calibration::Calibration;
 pub use self::decision::{Brake, Decision, Verified};
 pub use self::element::{Accepted, Arrival, DropReason, Message};
 pub use self::inputs::{Gap, GridMap, Inputs};

@@ -122,7 +122,7 @@ impl Real {
         }
     }
 
-    /// a / b of two doubles that are 0 or from 2^-400 to 2^400 in size. What a rounded quotient leaves of a is a double.
+    /// a / b of two doubles from 2^-400 to 2^400 in size, or a = 0. What a rounded quotient leaves of a is a double.
     pub(crate) fn quotient(a: f64, b: f64) -> Self {
         let hi = a / b;
         let (product, low) = two_product(hi, b);

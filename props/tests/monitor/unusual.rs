@@ -63,7 +63,6 @@ fn slips() -> Vec<(&'static str, Settings)> {
         (it.period, it.stages.tau) = (Duration::from_millis(1_001), 3.0);
         it.requester.dt_max_ns = 1_500_000_000;
     });
-    slip("step_ps", |it| it.step_ps = 0);
     // The clock of `calibrate` counts microseconds: 100 of them for 10^5 steps.
     slip("step_ps", |it| it.step_ps = Monitor::calibrate(microseconds()));
     slip("requester.dt_max_ns", |it| it.requester.dt_max_ns = 120_000_000_000);

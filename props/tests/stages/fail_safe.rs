@@ -66,8 +66,7 @@ pub fn too_much(cycle: &Cycle) -> Option<i64> {
     witness.compared[0].to_string().parse().ok()
 }
 
-/// H-14.42: of a path that may have more than 4096 places the implementation asks each place by itself. From point to point it
-/// may have five.
+/// H-14.42: a path that may have thousands of places.
 #[test]
 fn beside_a_path_that_may_have_thousands_of_places() {
     let (mut rng, mut safe, mut unsafe_) = (ChaCha8Rng::seed_from_u64(0), 0, 0);

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mufasa::input::profile::Profile;
-use mufasa::monitor::Work;
+use mufasa::monitor::Calibration;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::steps;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
@@ -92,9 +92,9 @@ fn each(vectors: &[Cycle], smoke: bool, job: &mut dyn FnMut(&str, u64, &Case<'_>
         }
     }
     steps::input(steps::INPUTS[0].0, steps::SIZES[0], &mut |_, cycle| {
-        for work in Work::ALL {
+        for work in Calibration::ALL {
             let case = Case { task: Task::Calibrate(work), cycle: *cycle };
-            job("`Monitor::calibrate`", Work::STEPS, &case);
+            job("`Monitor::calibrate`", Calibration::STEPS, &case);
         }
     });
 }

@@ -30,8 +30,6 @@ const FARTHEST: f64 = 20.0;
 const DRIFT: f64 = 10.0;
 /// No place is so far from the reference path, m.
 const FAR: Real = Real::new(1e9);
-/// So many places are looked at together.
-const FEW: f64 = 4096.0;
 
 /// An object that moves.
 pub(super) struct Passing {
@@ -80,7 +78,8 @@ impl<'c, 'a> Beside<'c, 'a> {
             }
             let has_none = |place: &Place| {
                 work.add(PLACE);
-                (!self.has_room(place, &lane, (away, needed))).then_some(())
+                // Where it is too much nothing makes a difference.
+                (work.is_too_much() || !self.has_room(place, &lane, (away, needed))).then_some(())
             };
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
@@ -196,9 +195,6 @@ impl Lane {
             return Self { is_open: Some(false), ..lane };
         }
         route.in_corridor([x, y], &mut lane.hint);
-        if path.nodes.most_places() > FEW {
-            return Self { is_open: None, is_closed_up: false, ..lane };
-        }
         let mut before = [f64::MIN, f64::MAX];
         for piece in path.pieces() {
             for k in 0..piece.count() {

@@ -65,7 +65,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
 
     /// As plain doubles have it.
     #[inline]
-    fn plainly(&self, motion: &Motion) -> Object {
+    pub(super) fn plainly(&self, motion: &Motion) -> Object {
         Object::new(&self.cycle().ego, motion, &self.clock)
     }
 
@@ -98,21 +98,26 @@ impl<'c, 'a> Meeting<'c, 'a> {
     }
 
     /// Whether the object misses the box around all places: surely when it does not come near the path (H-14.55).
-    pub(super) fn is_far(&self, motion: &Motion) -> bool {
-        self.covers.all.misses(&self.plainly(motion), &self.clock)
+    pub(super) fn is_far(&self, object: &Object) -> bool {
+        self.covers.all.misses(object, &self.clock)
     }
 
     /// Whether boxes around stretches leave open whether it meets the CAV.
-    pub(super) fn may_be_met(&self, motion: &Motion, work: &Work) -> bool {
+    pub(super) fn may_be_met(&self, object: &Object, work: &Work) -> bool {
         work.add(STRETCHES);
-        !self.covers.miss(&self.plainly(motion), &self.clock)
+        !self.covers.miss(object, &self.clock)
     }
 
     /// The first place where the object may meet the CAV, if that is before the place with that number, and
     /// the object is examined.
-    pub(super) fn first(&mut self, motion: &Motion, before: i64, work: &Work) -> Option<Met> {
+    pub(super) fn first(
+        &mut self,
+        (motion, object): (&Motion, &Object),
+        before: i64,
+        work: &Work,
+    ) -> Option<Met> {
         //
-        let (cycle, object) = (self.cycle(), self.plainly(motion));
+        let cycle = self.cycle();
         let exact = LazyCell::new(|| {
             work.add(EXACT);
             Exact::new(cycle, motion)
@@ -127,25 +132,25 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let boxes = (&*covers, &*clock, work);
         let comes_across = || exact.comes_across;
         let meets = |place: &Place| {
-            (place.number >= before || places.meets(place, &object, clock, comes_across))
+            (place.number >= before || places.meets(place, object, clock, comes_across))
                 .then(|| places.met(place))
         };
-        let met = places.first(&object, boxes, meets)?;
+        let met = places.first(object, boxes, meets)?;
         // H-14.28
         let counts = met.number < before && !work.is_too_much();
-        (counts && !places.is_exempt((&object, &exact), boxes)).then_some(met)
+        (counts && !places.is_exempt((object, &exact), boxes)).then_some(met)
     }
 }
 
 /// The path from the first line of each stretch on.
-fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Start<'a>>; MOST] {
+fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Start<'a>; MOST] {
     let (mut pieces, mut line) = (path.pieces(), 0);
-    let mut starts = [const { None }; MOST];
+    let mut starts = [pieces.start; MOST];
     for (start, stretch) in starts.iter_mut().zip(covers.stretches()) {
         while line < stretch.lines[0] && pieces.next().is_some() {
             line = line.saturating_add(1);
         }
-        *start = Some(pieces.start);
+        *start = pieces.start;
     }
     starts
 }
@@ -159,7 +164,7 @@ struct Places<'c, 'a> {
     /// How many points the trajectory has.
     points: usize,
     ego: Ego,
-    starts: [Option<Start<'a>>; MOST],
+    starts: [Start<'a>; MOST],
     beside: Beside<'c, 'a>,
 }
 
@@ -183,7 +188,7 @@ impl<'c, 'a> Places<'c, 'a> {
                 continue;
             }
             // Where the walk has been already it goes on.
-            let from = next.filter(|_| first < done).or(*start)?;
+            let from = next.filter(|_| first < done).unwrap_or(*start);
             let mut pieces = self.path.pieces_from(from);
             for piece in (first.max(done)..=last).map_while(|_| pieces.next()) {
                 work.add(PIECE);

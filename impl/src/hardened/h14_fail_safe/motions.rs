@@ -106,15 +106,16 @@ impl Motions<'_, '_, '_> {
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
         self.lists.work.add(MOTION);
         let is_over = self.lists.work.is_too_much();
+        let object = self.meeting.plainly(motion);
         if is_over
-            || self.meeting.is_far(motion)
+            || self.meeting.is_far(&object)
             || !counts(self)
-            || !self.meeting.may_be_met(motion, &self.lists.work)
+            || !self.meeting.may_be_met(&object, &self.lists.work)
         {
             return;
         }
         if let Some(Met { number, point, compared }) =
-            self.meeting.first(motion, end, &self.lists.work)
+            self.meeting.first((motion, &object), end, &self.lists.work)
         {
             let found = Witness::of(Rule::FailSafe, compared).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });

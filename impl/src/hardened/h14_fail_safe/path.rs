@@ -69,7 +69,8 @@ struct Ends {
     longest: Real,
 }
 
-/// Place k of n on a piece: what part of it is behind. Both are below 2^53.
+/// Place k of n on a piece: what part of it is behind. Exact up to the division below 2^53; what is beyond that is beyond the
+/// greatest length, too.
 fn share(k: i64, n: i64) -> Real {
     Real::quotient(Real::integer(k).value(), Real::integer(n).value())
 }

@@ -8,7 +8,6 @@ use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
-use crate::stages::distances::s_b;
 use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::vector;
 
@@ -105,16 +104,14 @@ fn failure(cycle: &Cycle<'_>, times: &Times<Real>, x: Vector) -> Option<Witness>
 /// of what is farther.
 struct Plain {
     h: [f64; 2],
-    v: f64,
-    s_b: f64,
+    times: Times<f64>,
     longest: f64,
 }
 
 impl Plain {
     fn new(cycle: &Cycle<'_>) -> Self {
-        let s_b = s_b(&cycle.parameters, cycle.ego.speed);
-        let longest = longest(Times::<f64>::new(cycle).s_stop);
-        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b, longest }
+        let times = Times::new(cycle);
+        Self { h: [cycle.ego.cos, cycle.ego.sin], times, longest: longest(times.s_stop) }
     }
 
     /// Whether a length certainly is within the greatest.
@@ -135,16 +132,16 @@ impl Plain {
     }
 
     /// Whether what is between two places certainly is: the distance is greatest at one of them, the
-    /// bound least where that is nearest. To be at f takes at least f / v.
+    /// bound least where that is nearest.
     fn is_within(&self, from: [f64; 2], to: [f64; 2]) -> bool {
         let [[f, aside], [f_to, aside_to]] = [from, to].map(|place| split(self.h, place));
         let size = larger(f.abs(), f_to.abs()) + larger(aside.abs(), aside_to.abs());
         let error = 1e-6 + 1e-12 * size;
         let f = smaller(f, f_to) - error;
-        if f > self.s_b * (1.0 + 1e-12) {
+        if f > self.times.s_b * (1.0 + 1e-12) {
             return true;
         }
-        let t = if f > 0.0 { f / self.v } else { 0.0 };
+        let t = if f > 0.0 { self.times.braking_with_a_b(f) } else { 0.0 };
         let bound = ASIDE + TURNED * larger(f, 0.0) + HALF_TYRES * (1.0 - 1e-9) * t * t;
         larger(aside.abs(), aside_to.abs()) + error < bound
     }

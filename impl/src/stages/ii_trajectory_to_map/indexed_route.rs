@@ -106,7 +106,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let start = self.segment(near).map_or(unknown, |segment| (length(&segment), near));
         let reach = start.0.magnitude();
         self.segments(q, reach).fold(start, |(best, at), segment| {
-            if Self::is_farther(q, &segment, best) {
+            if segment.index == near || Self::is_farther(q, &segment, best) {
                 return (best, at);
             }
             let candidate = length(&segment);

@@ -234,7 +234,7 @@ class Monitor:
         sessions_before: int = 0,
         most_stations: int = 64,
         check_time: timedelta | None = None,
-        step_ps: int = 750,
+        step_ps: int = 1000,
         meant: Sequence[str] = (),
     ) -> Monitor: ...
     def set_route(self, cross_sections: Rows, *, closed: bool = False) -> None:

@@ -62,7 +62,7 @@ pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
     cycle
 }
 
-/// An object beside a path of a thousand points, which may have more than 4096 places; no limit of work decides.
+/// An object beside a path of a thousand points, which may have thousands of places; no limit of work decides.
 ///
 /// # Panics
 /// Without an aim of that name.
