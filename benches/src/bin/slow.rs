@@ -19,7 +19,7 @@ use mufasa_benches::steps::{allowed, just_enough};
 use mufasa_benches::worst::{NOW_NS, base, earlier, list, timed, tracks, trajectory};
 
 const STAGES: [&str; 6] = ["input", "i", "ii", "iii", "iv", "v"];
-const BYTES: usize = 28;
+const BYTES: usize = 29;
 type Bytes = [u8; BYTES];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let pair =
                 |at: usize| u8::from_str_radix(hex.get(2 * at..2 * at + 2).unwrap_or(""), 16);
             let bytes = (0..BYTES).map(pair).collect::<Result<Vec<_>, _>>()?;
-            let bytes = bytes.try_into().map_err(|_| "not 56 digits")?;
+            let bytes = bytes.try_into().map_err(|_| "not 58 digits")?;
             input(&bytes, stage(name), &mut |cycle| {
                 let passes = measured(&mut Contestant::new(cycle), stage(name));
                 println!("{} {passes}", allowed(stage(name), cycle));
@@ -162,13 +162,14 @@ fn input(bytes: &Bytes, stage: Option<Stage>, run: &mut dyn FnMut(&Cycle<'_>)) {
     run(&if counts_work { just_enough(&cycle) } else { cycle });
 }
 
-/// Straight on, or along a bend, from the CAV on or beside it.
+/// Straight on, or along a bend, from the CAV on or beside it; behind the last point perhaps elsewhere.
 fn plan(it: &mut Choice<'_>) -> Vec<TrajectoryPoint> {
     let (count, bend) = (it.of(&[2, 4, 32, 128]), it.of(&[0.0, 0.0, 0.001, 0.01, 0.05]));
     let step = it.of(&[0.0, 0.008, 0.13, 0.24, 0.26, 0.5, 1.0, 3.0]);
     let (mut x, mut y, mut angle) = (-1.0, it.of(&[0.0, 1e-7, 0.01, 1.0]), 0.0_f64);
-    let points = (0..count).map(|_| {
-        let (sin, cos) = angle.sin_cos();
+    let turn = it.of(&[0.0, 0.0, 0.3, 0.66]);
+    let points = (1..=count).map(|number| {
+        let (sin, cos) = (angle + if number == count { turn } else { 0.0 }).sin_cos();
         let point = TrajectoryPoint { t_ns: 0, x, y, cos, sin };
         (x, y, angle) = (x + step * cos, y + step * sin, angle + bend * step);
         point
