@@ -1,6 +1,6 @@
 //! `slow SECONDS`: searches, for each stage, an input that takes as long as possible for its steps
 //! (`spec/4-arithmetic.md#steps`): a random one, changed as long as it gets slower. Prints the slowest and its bytes.
-//! `slow STAGE BYTES`: one call of the stage on such an input, for valgrind, and how many steps it may take.
+//! `slow STAGE BYTES`: one call of the stage on such an input, for `scripts/steps`, and how many steps it may take.
 
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
