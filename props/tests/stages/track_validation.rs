@@ -107,7 +107,7 @@ fn standing(
 /// more track beyond the field of view changes nothing, nor one exactly as far as the farthest detection, nor a pair above the limit of the mean.
 #[test]
 fn many_tracks_beside_their_detections_need_no_assignment() {
-    let seen: Vec<_> = (0..80)
+    let seen: Vec<_> = (0..100)
         .map(|number| (10.0 + 4.0 * f64::from(number % 10), 4.0 * f64::from(number / 10)))
         .collect();
     for profile in PROFILES {
