@@ -32,11 +32,20 @@ fn memory([tracks, detections, cross_sections]: [usize; 3]) -> Lent {
     lent
 }
 
-/// IMPL-11: the lists of docs/configuration.md in the time of the default, 15 ms.
+/// IMPL-11: the lists of docs/configuration.md in the time of the default, 15 ms, as the page says.
 #[test]
 fn the_recommended_lists_are_checked_in_time() {
     let settings = Settings::new(Duration::from_millis(50));
-    assert!(Monitor::new(settings, memory([128, 256, 528]).memory()).is_ok());
+    let recommended = |settings| Monitor::new(settings, memory([128, 256, 528]).memory()).map(drop);
+    assert_eq!(recommended(settings), Ok(()));
+    let Err(MonitorError::TooSlow { steps, .. }) = recommended(within(1)) else {
+        panic!("in time")
+    };
+    let said = format!("({:.2} ms)", 1e3 * Duration::from_nanos(steps).as_secs_f64());
+    let page = include_str!("../../../docs/configuration.md");
+    assert!(page.contains(&said) && page.contains("800,000 do not fit"), "{said}");
+    let stages = Parameters { work_limit: 800_000, ..settings.stages };
+    assert!(recommended(Settings { stages, ..settings }).is_err());
     let all = || Monitor::new(settings, memory([1024, 2048, 8192]).memory()).map(drop);
     assert!(matches!(all(), Err(MonitorError::TooSlow { most: 0, .. })));
     assert!(Monitor::new(settings.in_any_time(), memory([1024, 2048, 8192]).memory()).is_ok());
