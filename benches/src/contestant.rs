@@ -96,6 +96,14 @@ impl<'a> Contestant<'a> {
         self.outcome(stage) == Outcome::Passed
     }
 
+    /// A stage, or the checks of the input.
+    ///
+    /// # Panics
+    /// Never: the input is valid.
+    pub fn part(&mut self, stage: Option<Stage>) -> bool {
+        if let Some(stage) = stage { self.stage(stage) } else { self.validate() }
+    }
+
     /// The same, and why it fails.
     pub fn outcome(&mut self, stage: Stage) -> Outcome {
         let mut scratch = Scratch::new(&mut self.rows, &mut self.columns);

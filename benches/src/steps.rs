@@ -54,8 +54,9 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
     let road = road(name, size);
     let hardened = Cycle { profile: Profile::HARDENED, ..base(&road, &[0; 8]) };
     let base = Cycle { grid: None, ..hardened };
+    let run = &mut |cycle: &Cycle<'_>| run(*stage, &just_enough(*stage, cycle));
     if FOUND.contains(&name) {
-        return found(name, size, &base, &mut |cycle| run(*stage, cycle));
+        return found(name, size, &base, run);
     }
     let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
     let seen_as = |track: Track| detection(track.x, track.y);
@@ -150,8 +151,7 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
         "cells" => Cycle { grid: Some(cells), ..at_rest },
         _ => Cycle { grid: Some(cells), profile: Profile::PAPER, ..at_rest },
     };
-    let is_fail_safe = *stage == Some(Stage::Iv) && cycle.profile == Profile::HARDENED;
-    run(*stage, &if is_fail_safe { just_enough(&cycle) } else { cycle });
+    run(&cycle);
 }
 
 /// Inputs like those that `slow` found.
@@ -159,15 +159,14 @@ const FOUND: [&str; 4] = ["as-far", "at-rest", "touching", "coming"];
 
 fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>)) {
     let Ego { x, y, .. } = base.ego;
-    let numbered =
-        |count: u32, at: &dyn Fn(i64) -> Track| (0..i64::from(count)).map(at).collect::<Vec<_>>();
+    let numbered = |at: &dyn Fn(i64) -> Track| (0..i64::from(size)).map(at).collect::<Vec<_>>();
     let touching = 0.5 * (base.ego.width + 1.8);
     let base =
         &Cycle { parameters: Parameters::default(), ego: Ego { speed: 10.0, ..base.ego }, ..*base };
     match name {
         // Just as far as the farthest detection, and carried forward: compared in integers.
         "as-far" => {
-            let items = numbered(size, &|id| track(id, x - 3.0, y - 4.0));
+            let items = numbered(&|id| track(id, x - 3.0, y - 4.0));
             let (items, seen) = (
                 TrackList { stamp_ns: NOW_NS - 37_000_001, items: &items },
                 [detection(x + 3.0, y + 4.0)],
@@ -185,13 +184,13 @@ fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>
         "touching" => {
             let points = timed(places(size, 0.5).map(|along| point(x + along, y)).collect());
             let standing = |id| Track { length: 100.0, ..track(id, x, y + touching + 6e-9) };
-            let items = numbered(size, &standing);
-            run(&just_enough(&Cycle {
+            let items = numbered(&standing);
+            run(&Cycle {
                 tracks: Some(tracks(&items)),
                 detections: Some(list(&[])),
                 trajectory: Some(trajectory(&points)),
                 ..*base
-            }));
+            });
         }
         // Long things that come nearer beside the CAV, which stands: each from where any of them was.
         _ => {
@@ -207,18 +206,16 @@ fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>
             let standing = Cycle { ego: Ego { speed: 0.0, ..base.ego }, ..*base };
             let detections = Some(list(&now));
             let trajectory = Some(trajectory(&points));
-            run(&just_enough(&Cycle {
-                detections,
-                detection_history: &seen,
-                trajectory,
-                ..standing
-            }));
+            run(&Cycle { detections, detection_history: &seen, trajectory, ..standing });
         }
     }
 }
 
-/// The cycle with as much work for H-14 as it takes.
-pub fn just_enough<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
+/// The cycle with as much work for H-14 as it takes, if it is for H-14.
+pub fn just_enough<'a>(stage: Option<Stage>, cycle: &Cycle<'a>) -> Cycle<'a> {
+    if stage != Some(Stage::Iv) || cycle.profile != Profile::HARDENED {
+        return *cycle;
+    }
     let with = |work_limit| {
         let parameters = Parameters { work_limit, ..cycle.parameters };
         Cycle { parameters, ..*cycle }

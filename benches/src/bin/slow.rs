@@ -47,7 +47,7 @@ fn stage(name: &str) -> Option<Stage> {
 
 #[inline(never)]
 fn measured(it: &mut Contestant<'_>, stage: Option<Stage>) -> bool {
-    black_box(if let Some(stage) = stage { it.stage(stage) } else { it.validate() })
+    black_box(it.part(stage))
 }
 
 /// A sixth of the time for each stage.
@@ -121,9 +121,8 @@ fn input(bytes: &Bytes, stage: Option<Stage>, run: &mut dyn FnMut(&Cycle<'_>)) {
     // Cells that several detections cover take more than is counted.
     let seen = if stage == Some(Stage::V) { seen.min(1) } else { seen };
     let items: Vec<_> = (0..tracked).map(|id| things.track(id)).collect();
-    let lists = [0, 300, 500, 800].map(|ms| things.detections(seen, ms));
-    let earlier = [300, 500, 800]
-        .map(|ms| earlier(&lists[usize::from(ms > 300) + usize::from(ms > 500) + 1], ms));
+    let [now, a, b, c] = [0, 300, 500, 800].map(|ms| things.detections(seen, ms));
+    let earlier = [earlier(&a, 300), earlier(&b, 500), earlier(&c, 800)];
     let (occupied, unknown) = (bits(it), bits(it));
     let base = base(&road, &[0; 8]);
     let age_ns = it.of(&[0, 100_000_000, 37_000_001]);
@@ -145,7 +144,7 @@ fn input(bytes: &Bytes, stage: Option<Stage>, run: &mut dyn FnMut(&Cycle<'_>)) {
         unknown: Some(&unknown),
         ..base.grid.expect("a grid")
     };
-    let detections = if it.of(&[true, true, false]) { Some(list(&lists[0])) } else { None };
+    let detections = if it.of(&[true, true, false]) { Some(list(&now)) } else { None };
     let cycle = Cycle {
         profile,
         parameters,
@@ -158,8 +157,7 @@ fn input(bytes: &Bytes, stage: Option<Stage>, run: &mut dyn FnMut(&Cycle<'_>)) {
         grid: Some(grid),
         ..base
     };
-    let counts_work = stage == Some(Stage::Iv) && profile == Profile::HARDENED;
-    run(&if counts_work { just_enough(&cycle) } else { cycle });
+    run(&just_enough(stage, &cycle));
 }
 
 /// Straight on, or along a bend, from the CAV on or beside it; behind the last point perhaps elsewhere.

@@ -45,12 +45,7 @@ fn all() -> impl Iterator<Item = (&'static str, String)> {
 /// A call of the stage, or of the checks of the input.
 fn run<'a>(stage: Option<Stage>, cycle: &'a Cycle<'a>) -> impl FnMut() -> bool {
     let mut it = Contestant::new(cycle);
-    move || {
-        measured(&mut || match stage {
-            None => it.validate(),
-            Some(stage) => it.stage(stage),
-        })
-    }
+    move || measured(&mut || it.part(stage))
 }
 
 /// What is counted.
