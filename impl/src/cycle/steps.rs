@@ -23,10 +23,9 @@ pub(crate) const BOX: u64 = 48;
 /// into).
 pub(crate) const PAIR: u64 = 16;
 pub(crate) const SUPPORT: u64 = 64;
-/// An object beside the route, a segment near it, and a place beside the route.
-pub(crate) const BESIDE: u64 = 4096;
+/// An object beside the route, and a segment near it.
+pub(crate) const BESIDE: u64 = 256;
 pub(crate) const SEGMENT: u64 = 32;
-pub(crate) const SIDE: u64 = 2112;
 
 /// Sizes of the input of a cycle. Source: `spec/4-arithmetic.md#steps`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -280,16 +279,12 @@ fn fail_safe_work(counts: &Counts) -> u64 {
     let longest = if lists == 0 { 1 } else { d.max(1) };
     let motions = sum([tracks, product([2, d, longest]), d]);
     let of_pairs = sum([512, product([8, lists, d])]);
-    sum([
-        product([d, longest, of_pairs]),
-        product([motions, motion(along, cross_sections)]),
-        product([SIDE, along]),
-    ])
+    sum([product([d, longest, of_pairs]), product([motions, motion(along, cross_sections)])])
 }
 
 /// The most that one motion takes.
 fn motion(places: u64, cross_sections: u64) -> u64 {
-    sum([10_240, product([1408, places]), product([SEGMENT, cross_sections])])
+    sum([6400, product([1088, places]), product([SEGMENT, cross_sections])])
 }
 
 fn sum<const N: usize>(terms: [u64; N]) -> u64 {

@@ -7,9 +7,7 @@ use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
-use crate::stages::ii_trajectory_to_map::indexed_route::{
-    IndexedRoute, STEPS, Segment, plain_square,
-};
+use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, STEPS, Segment};
 
 /// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
 /// it turns faster than 1.7 rad/s.
@@ -177,7 +175,7 @@ impl IndexedRoute<'_, '_> {
     /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.
     /// Plain doubles err by less than 2^-22 m.
     pub(crate) fn at_most(&self, q: [f64; 2], index: usize) -> f64 {
-        let square = self.segment(index).map(|segment| plain_square(q, &segment));
+        let square = self.segment(index).map(|segment| segment.square_to(q));
         square.map_or(f64::MAX, |square| libm::sqrt(square) + 1e-6)
     }
 

@@ -97,35 +97,5 @@ pub(crate) fn segment_distance(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Real {
     result.unwrap_or_else(|| to_q.norm().widened(f64::INFINITY))
 }
 
-/// The displacement to point `q` from the nearest point of the closed segment from `a` to `b`, m; where
-/// rounding leaves open whether that is an end, all that may be it.
-pub(crate) fn from_segment(q: Vector, a: [f64; 2], b: [f64; 2]) -> [Option<Vector>; 3] {
-    let point = |[x, y]: [f64; 2]| Vector::new(x, y);
-    let (along, to_q) = (Vector::between(a, b), q - point(a));
-    let length_squared = along.dot(along);
-    if length_squared.value() < SHORT * SHORT {
-        let [x, y] = [to_q.x, to_q.y].map(|it| it.widened(2.0 * SHORT));
-        return [Some(Vector { x, y }), None, None];
-    }
-    let projection = along.dot(to_q);
-    let aside = || {
-        let share = along.cross(to_q).over(length_squared);
-        Vector { x: -along.y, y: along.x }.times(share)
-    };
-    let is_between =
-        Real::ZERO.possibly_below(projection) && projection.possibly_below(length_squared);
-    [
-        projection.possibly_at_most(Real::ZERO).then_some(to_q),
-        length_squared.possibly_at_most(projection).then(|| q - point(b)),
-        is_between.then(aside),
-    ]
-}
-
-/// How long that is, m.
-pub(crate) fn distance_to_segment(q: Vector, a: [f64; 2], b: [f64; 2]) -> Real {
-    let lengths = from_segment(q, a, b).into_iter().flatten().map(Vector::norm);
-    lengths.reduce(Real::either).unwrap_or(Real::new(f64::MAX))
-}
-
 /// Segments shorter than this count as their first point, with twice this as bound: 2^-200 m.
 const SHORT: f64 = f64::from_bits((1023 - 200) << 52);

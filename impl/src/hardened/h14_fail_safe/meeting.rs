@@ -126,7 +126,8 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let places = places.get_or_insert_with(|| {
             let path = Path::new(*nodes);
             let points = trajectory.len();
-            let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
+            let (starts, beside) =
+                (starts(&path, covers), Beside::new(&path, *route, aside.magnitude()));
             Places { path, points, ego: *ego, starts, beside }
         });
         let boxes = (&*covers, &*clock, work);
@@ -265,9 +266,18 @@ impl<'c, 'a> Places<'c, 'a> {
         if exact.is_behind && exact.comes_across && across.certainly_at_most(along) {
             return true;
         }
-        let Exact { now, velocity, speed, is_behind, .. } = *exact;
-        let (until, comes_towards) = (self.until_yielded(speed), across.certainly_at_most(-along));
-        let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
+        let plain = |it: Vector| [it.x.value(), it.y.value()];
+        let Rectangle { centre, direction, length, width } = exact.now;
+        let passing = Passing {
+            centre: plain(centre),
+            direction: plain(direction),
+            half: [length, width].map(|size| 0.5 * size),
+            velocity: plain(exact.velocity),
+            speed: exact.speed.value(),
+            is_behind: exact.is_behind,
+            comes_towards: across.certainly_at_most(-along),
+            until: self.until_yielded(exact.speed).value(),
+        };
         self.beside.keeps(&passing, boxes.2) && !self.may_lie_across(&object.standing(from), boxes)
     }
 

@@ -321,11 +321,18 @@ impl Piece {
         })
     }
 
-    /// Place k in plain doubles, if it is known so well.
-    pub(crate) fn plainly(&self, k: i64) -> Option<[f64; 2]> {
-        let (share, [x, y]) = (self.share(k), self.node.at);
-        let at = |from: f64, by: Real| from + by.value() * share.value();
-        (share.off() < 1e-9).then(|| [at(x, self.u.x), at(y, self.u.y)])
+    /// Place k in plain doubles.
+    pub(crate) fn plainly(&self, k: i64) -> [f64; 2] {
+        let (share, [x, y]) = (self.share(k).value(), self.node.at);
+        [x + self.u.x.value() * share, y + self.u.y.value() * share]
+    }
+
+    /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18).
+    pub(crate) fn has_certain_end(&self) -> bool {
+        let [x, y] = [self.u.x, self.u.y].map(|it| it.value().abs());
+        let k = self.n.max(self.count().saturating_sub(1));
+        let error = (self.s_stop - self.node.progress).off() * (x + y);
+        self.progress(k).certainly_below(self.s_stop) || error < 1e-6 * self.gain.value()
     }
 
     pub(crate) const fn heading(&self) -> [f64; 2] {

@@ -10,6 +10,7 @@ use crate::numbers::plane::{same_point, segment_distance};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
+use crate::stages::llcc::sweep::minus;
 
 /// A segment of the reference path.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +91,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         let near = self.nearer(q, hint);
         let reach = self.at_most(q, near);
         let nearest = self.segments(q, reach).fold((f64::MAX, near), |best, segment| {
-            let square = plain_square(q, &segment);
+            let square = segment.square_to(q);
             if square < best.0 { (square, segment.index) } else { best }
         });
         (self.at_most(q, nearest.1), nearest.1)
@@ -119,7 +120,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
     /// Whether the segment certainly is farther than that, in plain doubles, which err by less than 2^-22 m.
     pub(crate) fn is_farther(q: [f64; 2], segment: &Segment, distance: Real) -> bool {
         let reach = distance.magnitude() + 1e-5;
-        plain_square(q, segment) > reach * reach
+        segment.square_to(q) > reach * reach
     }
 
     /// The witness that a place is too far from the reference path.
@@ -181,14 +182,30 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
     }
 }
 
-/// The square of the distance from the point to the segment in plain doubles, m^2.
-pub(crate) fn plain_square([x, y]: [f64; 2], segment: &Segment) -> f64 {
-    let ([ax, ay], [bx, by]) = (segment.from, segment.to);
-    let (ux, uy) = (bx - ax, by - ay);
-    let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
-    let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
-    let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
-    dx * dx + dy * dy
+impl Segment {
+    pub(crate) fn way(&self) -> [f64; 2] {
+        minus(self.to, self.from)
+    }
+
+    /// m.
+    pub(crate) fn length(&self) -> f64 {
+        let [x, y] = self.way();
+        libm::sqrt(x * x + y * y)
+    }
+
+    /// The way from its nearest point to q, in plain doubles.
+    pub(crate) fn towards(&self, q: [f64; 2]) -> [f64; 2] {
+        let ([ux, uy], [x, y]) = (self.way(), minus(q, self.from));
+        let part = (x * ux + y * uy) / (ux * ux + uy * uy);
+        let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
+        [x - part * ux, y - part * uy]
+    }
+
+    /// The square of the distance from q, m^2.
+    pub(crate) fn square_to(&self, q: [f64; 2]) -> f64 {
+        let [x, y] = self.towards(q);
+        x * x + y * y
+    }
 }
 
 /// Lower bound on the distance from the point to the segment: to its bounding box, in plain

@@ -144,9 +144,14 @@ pub fn follows(scene: &Scene, motion: &Motion, comes_across: bool, behind: bool)
 #[derive(Debug)]
 pub struct BesideRoute {
     reference_path: Vec<Segment>,
-    /// D_k and E_k of each place, m, of several E_k the greatest, and the rectangle of the CAV there.
-    places: Vec<(Real, Real, Rectangle)>,
-    /// No c_k lies beyond an end of an open route, and the path bends as the route does.
+    /// The least D_k - E_k of all places, m.
+    a: Real,
+    /// The greatest D_k + E_k of all places, m.
+    b: Real,
+    /// The rectangle of the CAV at each place.
+    cavs: Vec<Rectangle>,
+    /// No c_k lies beyond an end of an open route, and the path bends as the route does. Strictly its end at s_stop is
+    /// certain, too.
     is_along: bool,
     /// The route bends with R = 300 m, for who goes the CAV's way.
     bends_little: bool,
@@ -160,69 +165,98 @@ impl BesideRoute {
         // A closing segment of length 0 is none.
         let mut reference_path = scene.route.reference_path();
         reference_path.retain(|[from, to]| from != to);
-        let widening = widening(scene, trajectory);
-        let mut is_along = true;
-        let distances = |place: Place| {
-            let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
-            is_along &=
-                is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.progress);
-            let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
-            let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &widening);
-            let cav = wider(scene, trajectory, &place.pose);
-            (d_k, e_k.max().unwrap_or_else(Real::zero), cav)
-        };
-        let places = places(scene, trajectory).map(distances).collect();
+        let places: Vec<Place> = places(scene, trajectory).collect();
+        let [a, b] = a_and_b(scene, &reference_path, &places, &widening(scene, trajectory));
+        let is_along = places.iter().all(|Place { pose, progress, piece, .. }| {
+            let Frame { origin: c_k, direction: h_k } = cav(scene, pose).frame;
+            is_within_ends(scene, &reference_path, &c_k)
+                && bends(scene, &h_k, progress)
+                && piece.as_ref().is_none_or(|(u, end)| ends_surely(scene, u, end))
+        });
+        let cavs = places.iter().map(|place| wider(scene, trajectory, &place.pose)).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
-        Self { reference_path, places, is_along, bends_little, bends }
+        Self { reference_path, a, b, cavs, is_along, bends_little, bends }
     }
 
     /// w is not 0, it goes along, 0 < D <= 20 m, nothing of it is where the path leads, and nothing comes there,
-    /// measured along the route: (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    /// measured along the route:
+    /// max(A - D, D - B) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    /// Strictly D > 0.1 m, and max(A - D, D - B) is less by 10^-6 abs(w) H(w).
     pub fn keeps_beside(&self, scene: &Scene, motion: &Motion, behind: bool) -> bool {
-        let (w, h, zero) = (&motion.w, &scene.ego.heading, Real::zero());
+        let (w, h_ego, zero) = (&motion.w, &scene.ego.heading, Real::zero());
         if w.squared() == zero {
             return false;
         }
         let object = now(motion).rectangle();
         let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
         let (d, nearest) = nearest(scene, &self.reference_path, &c);
-        let comes_towards = scene.reads.at_most(&w.cross(h).abs(), &-w.dot(h));
-        let comes_near = |segment: &&Segment| {
+        let comes_towards = scene.reads.at_most(&w.cross(h_ego).abs(), &-w.dot(h_ego));
+        let [least_d, rounded] = if scene.reads.is_strict() {
+            let rounded = Real::from_double(1e-6) * &motion.speed * h(scene, motion);
+            [Real::from_double(0.1), rounded]
+        } else {
+            [zero.clone(), zero]
+        };
+        let apart = (&self.a - &d).max(&d - &self.b) - big_m(scene) - rounded;
+        let is_apart = |segment: &&Segment| {
             let q = &c - &nearest_point(&c, segment);
             let half = (dir.dot(&q).abs() * &length + dir.cross(&q).abs() * &width)
                 / Real::from_integer(2);
-            let needed = half + w.dot(&q).abs() * t_h(scene, motion, &q, &d, behind);
-            let is_apart = |(d_k, e_k, _): &(Real, Real, Rectangle)| {
-                scene.reads.lowered(&((&d - d_k).abs() - e_k)) * &d > needed
-            };
-            !self.places.iter().all(is_apart)
+            &apart * &d > half + w.dot(&q).abs() * t_h(scene, motion, &q, &d, behind)
         };
         let margin = margin(scene, motion);
-        let lies_across = |(.., cav): &(Real, Real, Rectangle)| {
-            share_a_point(&cav.with_halves(|half| half + &margin), &object)
-        };
-        d > zero
-            && scene.reads.at_most(&d, &Real::from_integer(20))
+        let lies_across =
+            |cav: &Rectangle| share_a_point(&cav.with_halves(|half| half + &margin), &object);
+        d > least_d
+            && d <= Real::from_integer(20) - big_m(scene)
             && goes_along(scene, motion)
             && self.is_along
             && if comes_towards { self.bends } else { self.bends_little }
             && is_within_ends(scene, &self.reference_path, &c)
-            && !nearest.iter().any(comes_near)
-            && !self.places.iter().any(lies_across)
+            && nearest.iter().all(is_apart)
+            && !self.cavs.iter().any(lies_across)
     }
 }
 
-/// E_k without a: (abs(h_k . g) W + abs(h_k x g) L) / (2 abs(g)), m.
+/// M, the margin of who keeps beside: strictly the greater of m and 0.0001, else m.
+fn big_m(scene: &Scene) -> Real {
+    let m = scene.reads.raised(&Real::zero());
+    if scene.reads.is_strict() { m.max(Real::from_double(0.0001)) } else { m }
+}
+
+/// Strictly a piece that ends at a progress above s_stop - M has u . h > M (abs(u_x) + abs(u_y)): a path across h has no
+/// certain end at s_stop.
+fn ends_surely(scene: &Scene, u: &Vector, end: &Real) -> bool {
+    let m = big_m(scene);
+    !scene.reads.is_strict()
+        || *end <= Driving::of(scene).s_stop() - &m
+        || u.dot(&scene.ego.heading) > m * (u.x.abs() + u.y.abs())
+}
+
+/// A and B: the least D_k - E_k and the greatest D_k + E_k of all places, m, of several E_k with each.
+fn a_and_b(scene: &Scene, path: &[Segment], places: &[Place], widening: &Real) -> [Real; 2] {
+    let covered = places.iter().flat_map(|place| {
+        let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
+        let (d_k, nearest) = nearest(scene, path, &c_k);
+        nearest.into_iter().map(move |[from, to]| {
+            let e_k = e_k(scene, &h_k, &(to - from)) + widening;
+            [&d_k - &e_k, &d_k + e_k]
+        })
+    });
+    let both = covered.reduce(|[a, b], [least, most]| [a.min(least), b.max(most)]);
+    both.expect("p is a place, and a segment is the nearest")
+}
+
+/// E_k without the widening: (abs(h_k . g) W + abs(h_k x g) L) / (2 abs(g)), m.
 fn e_k(scene: &Scene, h_k: &Vector, g: &Vector) -> Real {
     let twice = h_k.dot(g).abs() * &scene.ego.width + h_k.cross(g).abs() * &scene.ego.length;
     twice * g.length() / (Real::from_integer(2) * g.squared())
 }
 
-/// t_H = H(w), but 0 for who is behind and drifts by at most abs(w . q) <=
-/// abs(w) D / 10, s.
+/// t_H = H(w), but 0 for who is behind and drifts by at most abs(w . q) <= abs(w) D (1/10 - M), s.
 fn t_h(scene: &Scene, motion: &Motion, q: &Vector, d: &Real, behind: bool) -> Real {
-    let most = &motion.speed * d / Real::from_integer(10);
-    if behind && scene.reads.at_most(&motion.w.dot(q).abs(), &most) {
+    let tenth = Real::from_integer(1) / Real::from_integer(10);
+    if behind && motion.w.dot(q).abs() <= &motion.speed * d * (tenth - big_m(scene)) {
         return Real::zero();
     }
     h(scene, motion)
@@ -235,41 +269,42 @@ pub fn h(scene: &Scene, motion: &Motion) -> Real {
     Driving::of(scene).t_stop().max(&p.tau + &p.t_yield + braking)
 }
 
-/// Each segment g_i of the reference path has abs(h x g_i) <= abs(g_i) (0.05 + (distance of p from g_i) / R):
+/// Each segment g_i of the reference path has abs(h x g_i) <= abs(g_i) (0.05 + (distance of p from g_i) / R - M) - m:
 /// the route bends; it does not turn off or change lanes near the CAV.
 fn route_bends(scene: &Scene, path: &[Segment], r: i128) -> bool {
     let Frame { origin: p, direction: h } = p(scene);
     let distances = beside(&p, path).distances;
     path.iter().zip(distances).all(|([from, to], distance)| {
         let g_i = to - from;
-        let bend = Real::from_double(0.05) + distance / Real::from_integer(r);
+        let bend = Real::from_double(0.05) + distance / Real::from_integer(r) - big_m(scene);
         scene.reads.at_most(&h.cross(&g_i).abs(), &(g_i.length() * bend))
     })
 }
 
-/// abs(h x h_k) <= 0.05 + progress / 30 m.
+/// abs(h x h_k) <= 0.05 + progress / 30 m - M.
 fn bends(scene: &Scene, h_k: &Vector, progress: &Real) -> bool {
     let limit = Real::from_double(0.05) + progress / Real::from_integer(30);
-    scene.reads.at_most(&scene.ego.heading.cross(h_k).abs(), &limit)
+    scene.ego.heading.cross(h_k).abs() <= limit - big_m(scene)
 }
 
 /// The distance of a point to the reference path, m, and its segments at that distance; strictly those at
-/// most delta farther, too.
+/// most the greater of m and 10^-5 m farther, too.
 fn nearest<'a>(scene: &Scene, path: &'a [Segment], point: &Vector) -> (Real, Vec<&'a Segment>) {
     let Beside { distance, distances, .. } = beside(point, path);
-    let most =
-        if scene.reads.is_strict() { &distance + &scene.reads.delta } else { distance.clone() };
+    let (delta, alike) = (scene.reads.delta.clone(), Real::from_double(1e-5));
+    let more = if scene.reads.is_strict() { delta.max(alike) } else { Real::zero() };
+    let most = &distance + more;
     let is_near = |(_, far): &(&Segment, &Real)| **far <= most;
     let nearest = path.iter().zip(&distances).filter(is_near).map(|(segment, _)| segment);
     (distance.clone(), nearest.collect())
 }
 
-/// Of an open route (x - end) . (neighbour of the end - end) > 0 for both end points of the reference
-/// path.
+/// Of an open route (x - end) . g > M abs(g) + m for both end points of the reference path, g being the next point - end.
 fn is_within_ends(scene: &Scene, path: &[Segment], x: &Vector) -> bool {
     let ([first, second], [before_last, last]) = (&path[0], &path[path.len() - 1]);
     let is_inside = |(end, neighbour): (&Vector, &Vector)| {
-        scene.reads.greater(&(x - end).dot(&(neighbour - end)), &Real::zero())
+        let g = neighbour - end;
+        scene.reads.greater(&(x - end).dot(&g), &(big_m(scene) * g.length()))
     };
     scene.route.closed || [(first, second), (last, before_last)].into_iter().all(is_inside)
 }

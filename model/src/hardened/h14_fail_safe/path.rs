@@ -21,6 +21,9 @@ pub struct Place {
     pub length: Real,
     /// The length at the place after it, m; none for the last.
     pub length_after: Option<Real>,
+    /// u of its piece, m, behind the last node d_p along the heading, and the progress at which that piece ends, m; none
+    /// for p.
+    pub piece: Option<(Vector, Real)>,
 }
 
 /// How far ahead a point is, its progress: (x - p) . h, m.
@@ -81,6 +84,7 @@ impl Piece {
     /// Its places behind a; the last one is b.
     fn steps(self, scene: &Scene) -> impl Iterator<Item = Step> {
         let (j, u, growth) = (self.parts(&d(scene)), self.u(), self.growth());
+        let end = ahead(scene, &self.b.origin);
         (1..=j).map(move |k| {
             let share = integer(k) / integer(j);
             let origin = &self.a.origin + &u.scaled(&share);
@@ -88,18 +92,20 @@ impl Piece {
             let heading = self.a.direction.clone();
             let pose =
                 if k == j { self.b.clone() } else { Frame { origin, direction: heading.clone() } };
-            Step { progress: ahead(scene, &pose.origin), pose, length, heading }
+            let piece = Some((u.clone(), end.clone()));
+            Step { progress: ahead(scene, &pose.origin), pose, length, heading, piece }
         })
     }
 }
 
-/// A place of the endless path: where, its progress, its length, and the heading of its piece.
+/// A place of the endless path: where, its progress, its length, the heading of its piece, and its piece.
 #[derive(Clone)]
 struct Step {
     pose: Frame,
     progress: Real,
     length: Real,
     heading: Vector,
+    piece: Option<(Vector, Real)>,
 }
 
 /// The pieces of the path, and its last node with the length at that.
@@ -126,14 +132,16 @@ fn endless(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Step> {
     let (pieces, node, length) = pieces(scene, trajectory);
     let p = Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() };
     let heading = p.direction.clone();
-    let p = Step { pose: p, progress: Real::zero(), length: Real::zero(), heading };
+    let zero = Real::zero();
+    let p = Step { pose: p, progress: zero.clone(), length: zero, heading, piece: None };
     let on_pieces = pieces.into_iter().flat_map(|piece| piece.steps(scene));
     let behind = (1..).map(move |k| {
         let far = integer(k) * &d;
         let origin = &node.origin + &node.direction.scaled(&far);
         let (progress, heading) = (ahead(scene, &origin), node.direction.clone());
         let pose = Frame { origin, direction: heading.clone() };
-        Step { pose, progress, length: &length + far, heading }
+        let piece = Some((heading.scaled(&d), progress.clone()));
+        Step { pose, progress, length: &length + far, heading, piece }
     });
     once(p).chain(on_pieces).chain(behind)
 }
@@ -208,7 +216,7 @@ fn last(a: &Step, b: &Step, s_stop: &Real) -> Step {
     let length = &a.length + (&b.length - &a.length) * share;
     let heading = b.heading.clone();
     let pose = Frame { origin, direction: heading.clone() };
-    Step { pose, progress: s_stop.clone(), length, heading }
+    Step { pose, progress: s_stop.clone(), length, heading, piece: b.piece.clone() }
 }
 
 /// The places with what they know of their neighbours.
@@ -216,12 +224,12 @@ fn with_neighbours(steps: impl Iterator<Item = Step>) -> impl Iterator<Item = Pl
     let mut steps = steps.peekable();
     let mut before = Real::zero();
     from_fn(move || {
-        let Step { pose, progress, length, .. } = steps.next()?;
+        let Step { pose, progress, length, piece, .. } = steps.next()?;
         let before = std::mem::replace(&mut before, progress.clone());
         let (here, after) = (before.min(progress.clone()), steps.peek());
         let least = after.map_or(here.clone(), |after| here.min(after.progress.clone()));
         let length_after = after.map(|after| after.length.clone());
-        Some(Place { pose, progress, least: least.max(Real::zero()), length, length_after })
+        Some(Place { pose, progress, least: least.max(Real::zero()), length, length_after, piece })
     })
 }
 
@@ -270,10 +278,11 @@ fn with_beyond(scene: &Scene, trajectory: &[Point], end: &End, last: Place) -> V
     let beyond = up_to(endless(scene, trajectory), is_last)
         .skip_while(|step| step.progress <= s_stop)
         .take_while(|step| reads.may_be_at_most(&step.progress, &s_stop))
-        .map(|Step { pose, progress, length, .. }| Place {
+        .map(|Step { pose, progress, length, piece, .. }| Place {
             pose,
             progress,
             length,
+            piece,
             ..last.clone()
         });
     let mut places: Vec<Place> = beyond.chain(once(last.clone())).collect();

@@ -11,7 +11,7 @@ use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use super::{alone, scene};
 use crate::base::*;
-use crate::near::points;
+use crate::near::{NEAR_SAFE, NEAR_UNSAFE, NO, YES, points};
 
 pub(super) const READINGS: [Reading; 3] = [Reading::Strict, Reading::Exact, Reading::Lax];
 
@@ -55,6 +55,15 @@ pub(super) fn moves(name: &str, with: impl Fn(f64) -> [bool; 3]) {
     assert_eq!(with(-0.5e-6), [false, true, true], "{name}");
     assert_eq!(with(0.5e-6), [false, false, true], "{name}");
     assert_eq!(with(2e-6), [false; 3], "{name}");
+}
+
+/// The same with M, which is 0.0001 strictly.
+pub(super) fn moves_by_m(name: &str, with: impl Fn(f64) -> [bool; 3]) {
+    assert_eq!(with(-1.5e-4), YES, "{name}");
+    assert_eq!(with(-0.9e-4), NEAR_SAFE, "{name}");
+    assert_eq!(with(-0.5e-6), NEAR_SAFE, "{name}");
+    assert_eq!(with(0.5e-6), NEAR_UNSAFE, "{name}");
+    assert_eq!(with(3e-6), NO, "{name}");
 }
 
 fn behind(vx: f64, vy: f64) -> Track {
@@ -111,8 +120,8 @@ pub(super) fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
 #[test]
 fn who_keeps_beside_is_beside_the_path() {
     for (x, vx) in [(-10.0, 8.0), (20.0, 8.0), (20.0, -8.0), (0.0, 8.0)] {
-        moves("more than half of both widths + m", |e| keeps_beside(&beside(x, 2.0 - e, vx, 0.0)));
-        moves("to the right", |e| keeps_beside(&beside(x, -2.0 + e, vx, 0.0)));
+        moves_by_m("half of both widths + M", |e| keeps_beside(&beside(x, 2.0 - e, vx, 0.0)));
+        moves_by_m("to the right", |e| keeps_beside(&beside(x, -2.0 + e, vx, 0.0)));
     }
     assert_eq!(keeps_beside(&beside(20.0, 0.0, 8.0, 0.0)), [false; 3]);
     assert_eq!(keeps_beside(&beside(20.0, 2.5, 0.0, 0.0)), [false; 3], "it may set off");
@@ -142,6 +151,81 @@ fn who_keeps_beside_is_beside_the_path() {
     assert_eq!([ahead(0.0), ahead(10.0)], [[true; 3], [false; 3]]);
 }
 
+/// An object is nearer than the CAV at every place, or farther at every place: D <= 20 m - M, A - D, and strictly
+/// D > 0.1 m.
+/// H-14.37, H-14.42, MARGIN-18.
+#[test]
+fn who_keeps_beside_is_nearer_or_farther_at_every_place() {
+    moves_by_m("D <= 20 m - M", |e| keeps_beside(&beside(-10.0, 20.0 + e, 8.0, 0.0)));
+    // The CAV is 5 m beside the route.
+    let nearer = |y: f64| {
+        let mut cycle = beside(-10.0, y, 8.0, 0.0);
+        cycle.ego.y = 5.0;
+        points(&mut cycle).iter_mut().for_each(|point| point.y = 5.0);
+        keeps_beside(&cycle)
+    };
+    moves_by_m("A - D > 1 m + M", |e| nearer(3.0 + e));
+    assert_eq!([0.0, 0.05, 0.1, 0.101].map(nearer), [NO, NEAR_SAFE, NEAR_SAFE, YES]);
+    // A CAV as wide as a pole goes 2 m aside, 1/4 m from place to place: the object is between two of them.
+    let pole = |y: f64| {
+        let mut cycle = beside(30.0, y, 8.0, 0.0);
+        let object = &mut cycle.tracks.as_mut().expect("set").items[0];
+        (object.width, cycle.ego.width) = (0.02, 0.02);
+        points(&mut cycle).iter_mut().skip(5).for_each(|point| point.y = 2.0);
+        keeps_beside(&cycle)
+    };
+    assert_eq!([0.375, 1.875, 2.1].map(pole), [NO, NO, YES]);
+}
+
+/// (x - end) . g > M abs(g) + m; a delta that is greater than 0.0001 is M.
+/// H-14.39, MARGIN-01.
+#[test]
+fn who_keeps_beside_is_not_beyond_an_end() {
+    moves_by_m("behind", |e| keeps_beside(&beside(-100.0 - e, 4.0, 8.0, 0.0)));
+    moves_by_m("ahead", |e| keeps_beside(&beside(200.0 + e, 4.0, 8.0, 0.0)));
+    let short = |x: f64| {
+        let mut cycle = beside(x, 4.0, 8.0, 0.0);
+        cycle.parameters.delta = 0.01;
+        cycle.route.cross_sections.insert(1, straight_route(-99.0, 0.0).cross_sections.remove(0));
+        keeps_beside(&cycle)
+    };
+    assert_eq!(
+        [-99.979, -99.981, -100.019, -100.021].map(short),
+        [YES, NEAR_SAFE, NEAR_UNSAFE, NO]
+    );
+}
+
+/// Strictly a piece with a place that ends at a progress above s_stop - M has u . h > M (abs(u_x) + abs(u_y)).
+/// MARGIN-18.
+#[test]
+fn the_path_is_not_across_at_its_end() {
+    // s_stop is 10.75 m: the piece from 10.75 m - `before` on leads 1/4 m aside, and by `ahead` ahead.
+    for side in [0.25, -0.25] {
+        let with = |before: f64, ahead: f64| {
+            let mut cycle = beside(-10.0, 4.0, 8.0, 0.0);
+            let points = points(&mut cycle);
+            points[10].x = 10.75 - before;
+            points[11].x = points[10].x + ahead;
+            points.iter_mut().skip(11).for_each(|point| point.y = side);
+            keeps_beside(&cycle)
+        };
+        assert_eq!([1.1e-4, 9e-5, 0.0].map(|it| with(it, 0.0)), [YES, NEAR_SAFE, NEAR_SAFE]);
+        assert_eq!([2e-5, 3e-5].map(|it| with(1e-5, it)), [NEAR_SAFE, YES]);
+        // Strictly it has places up to s_stop + m.
+        assert_eq!([-0.5e-6, -2e-6].map(|it| with(it, 0.0)), [NEAR_SAFE, YES]);
+    }
+    // s_stop is 28.75 m, where a path of any heading bends: the last node looks aside.
+    let turned = |before: f64| {
+        let mut cycle = beside(-10.0, -12.0, 8.0, 0.0);
+        cycle.ego.speed = 16.0;
+        let points = points(&mut cycle);
+        points.truncate(30);
+        (points[29].x, points[29].cos, points[29].sin) = (28.75 - before, 0.0, 1.0);
+        keeps_beside(&cycle)
+    };
+    assert_eq!([1.1e-4, 9e-5].map(turned), [YES, NEAR_SAFE]);
+}
+
 /// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
 /// H-14.43.
@@ -150,12 +234,14 @@ fn who_keeps_beside_does_not_drift_into_the_path() {
     let t_h = |w: f64| 0.5 + 2.0 + w / 6.0;
     let drift = 0.25 * t_h(8f64.hypot(0.25));
     for vy in [0.25, -0.25] {
-        moves("drift ahead", |e| keeps_beside(&beside(20.0, 2.0 + drift - e, 8.0, vy)));
+        moves_by_m("drift ahead", |e| keeps_beside(&beside(20.0, 2.0 + drift - e, 8.0, vy)));
     }
+    // Strictly 10^-6 of the way until then, too: 1.917 mm.
+    let fast = |y: f64| keeps_beside(&beside(-10.0, y, 100.0, 0.0));
+    assert_eq!([2.002, 2.0021].map(fast), [NEAR_SAFE, YES]);
     assert_eq!(keeps_beside(&beside(-10.0, 2.01, 8.0, -0.25)), [true; 3]);
-    // abs(vy) 4 m = abs(w) 4 m / 10, and that grows by 0.04 m for 1 m/s.
-    moves("abs(w . q) <= abs(w) D / 10 - m", |e| {
-        keeps_beside(&beside(-10.0, 4.0, 8.0, -(8.0 / 99f64.sqrt() + e / 3.96)))
+    moves_by_m("abs(w . q) <= abs(w) D (1/10 - M)", |e| {
+        keeps_beside(&beside(-10.0, 4.0, 8.0, -8.0 * (0.1 + e).asin().tan()))
     });
     assert_eq!(keeps_beside(&beside(-10.0, 8.0, 8.0, -0.9)), [true; 3], "far enough for more");
 }
@@ -171,15 +257,15 @@ fn the_path_bends_and_does_not_turn_off() {
         keeps_beside(&cycle)
     };
     let bound = 0.05 + 1.0 / 30.0;
-    moves("abs(h x h_k) <= bound - m", |e| with(bound + e, 4.0));
-    moves("to the right", |e| with(-bound - e, 4.0));
+    moves_by_m("abs(h x h_k) <= bound - M", |e| with(bound + e, 4.0));
+    moves_by_m("to the right", |e| with(-bound - e, 4.0));
     // (abs(cos) W + abs(sin) L) / 2, and half of its own width.
     let e_k = |sin: f64| (1.0 - sin * sin).sqrt() + 2.0 * sin;
-    moves("E_k", |e| with(0.08, e_k(0.08) + 1.0 - e));
+    moves_by_m("E_k", |e| with(0.08, e_k(0.08) + 1.0 - e));
 }
 
-/// Several nearest points or segments are all asked; strictly those that are nearly as near, too.
-/// H-14.44.
+/// Several nearest points or segments are all asked; strictly those that are up to 10^-5 m farther, too.
+/// H-14.44, MARGIN-18.
 #[test]
 fn every_nearest_point_and_segment_is_asked() {
     let on_route = |cycle: &mut Cycle, corner: [f64; 2], end: [f64; 2]| {
@@ -192,13 +278,15 @@ fn every_nearest_point_and_segment_is_asked() {
         on_route(&mut cycle, [40.0, 0.0], [40.0, 40.0]);
         keeps_beside(&cycle)
     };
-    assert_eq!([inside(10.0), inside(10.0 - 0.5e-6)], [[false; 3], [false, true, true]]);
-    assert_eq!([inside(10.0 - 2e-6), inside(10.0 + 2e-6)], [[true; 3], [false; 3]]);
+    assert_eq!([inside(10.0), inside(10.0 - 0.9e-5)], [NO, NEAR_SAFE]);
+    assert_eq!([inside(10.0 - 1.1e-5), inside(10.0 + 2e-6)], [YES, NO]);
     // The last place is at a corner, where the next segment leads aside: half of W and L along it.
     let corner = |x: f64, y: f64| {
         let mut cycle = beside(0.0, y, -8.0, 0.0);
         on_route(&mut cycle, [x, 0.0], [x + 80.0, 30.0]);
-        keeps_beside(&cycle)[1]
+        keeps_beside(&cycle)
     };
-    assert!(corner(11.0, 2.6) && !corner(10.75, 2.6) && corner(10.75, 2.7));
+    // Laxly there is no place at s_stop.
+    assert_eq!([corner(10.75, 2.6), corner(10.75, 2.7)], [NEAR_UNSAFE, YES]);
+    assert_eq!([corner(10.750009, 2.6), corner(10.750011, 2.6)], [NEAR_SAFE, YES]);
 }

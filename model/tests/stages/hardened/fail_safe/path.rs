@@ -5,7 +5,7 @@ use mufasa_model::hardened::h14_fail_safe::path::{
     Place, count, greatest_length, places, places_by_length,
 };
 use mufasa_model::hardened::h14_fail_safe::times::Driving;
-use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::input::cycle::{Cycle, Profile, Track, Trajectory, TrajectoryPoint};
 use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
@@ -291,6 +291,19 @@ fn an_end_by_distance_makes_no_work_less() {
     let witness = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
     let found = witness.map(|it| (it.rule, it.compared[0].to_string()));
     assert_eq!(found, Some((Rule::WorkLimit, (320 + 3360 + 528 * 14).to_string())));
+}
+
+/// H-14.51: K is 6 places, E the 2 at s_stop, and C 2 cross sections, for an object that comes near and keeps beside.
+#[test]
+fn who_keeps_beside_takes_more_work() {
+    let mut beside = cycle(4.0, &[along_x(0.5, 0.0)]);
+    beside.tracks = tracks(vec![Track { vx: 1.0, ..track(1, 3.0, 2.05) }]);
+    (beside.detections, beside.parameters.work_limit) = (None, 0);
+    let scene = scene(&beside, Reading::Strict);
+    let witness = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
+    let (near, keeps_beside) = (3360 + 528 * 8, 1456 + 528 * 8 + 32 * 2);
+    let work = witness.expect("there is work").compared[0].to_string();
+    assert_eq!(work, (320 + near + keeps_beside).to_string());
 }
 
 /// H-14.11: the least progress of a place, of the one before it and of the one after it, at least 0.

@@ -1,9 +1,9 @@
 //! `spec/hardened/H-14.md#requirements-not-examined`: who keeps beside does so where the route bends, abs(h x g_i) <=
-//! abs(g_i) (0.05 + (distance of p from g_i)/R), R = 30 m for who comes towards the CAV, else 300 m.
+//! abs(g_i) (0.05 + (distance of p from g_i)/R - M) - m, R = 30 m for who comes towards the CAV, else 300 m.
 
 use mufasa_model::input::cycle::{CrossSection, Cycle};
 
-use super::following::{beside, keeps_beside, moves};
+use super::following::{beside, keeps_beside, moves, moves_by_m};
 
 use crate::base::*;
 use crate::near::*;
@@ -73,11 +73,11 @@ fn the_distance_is_that_of_p() {
         keeps_beside(&cycle)
     };
     let shifted = |c: &mut Cycle| c.ego.center_offset = 2.0;
-    moves("same way, shifted", |e| with(SAME_WAY, 15.0, 0.1 + e, &shifted));
-    moves("towards, shifted", |e| with(TOWARDS[1], 15.0, 0.55 + e, &shifted));
+    moves_by_m("same way, shifted", |e| with(SAME_WAY, 15.0, 0.1 + e, &shifted));
+    moves_by_m("towards, shifted", |e| with(TOWARDS[1], 15.0, 0.55 + e, &shifted));
     let elsewhere = |c: &mut Cycle| c.ego.x = 1.0;
-    moves("same way, elsewhere", |e| with(SAME_WAY, 16.0, 0.1 + e, &elsewhere));
-    moves("towards, elsewhere", |e| with(TOWARDS[1], 16.0, 0.55 + e, &elsewhere));
+    moves_by_m("same way, elsewhere", |e| with(SAME_WAY, 16.0, 0.1 + e, &elsewhere));
+    moves_by_m("towards, elsewhere", |e| with(TOWARDS[1], 16.0, 0.55 + e, &elsewhere));
     // The CAV looks away from the straight route, 200 m long, 16.5 m beside it.
     let leaving = |y: f64| {
         let mut cycle = beside(20.0, 10.0, -0.08, -0.06);
@@ -89,5 +89,8 @@ fn the_distance_is_that_of_p() {
         cycle.route = straight_route(-100.0, 100.0);
         keeps_beside(&cycle)
     };
-    moves("the inside of a segment", |e| leaving(16.5 - 30.0 / 200.0 * e));
+    moves_by_m("the inside of a segment", |e| leaving(16.5 - 30.0 * e));
+    // A delta of 0.01 moves the bound by abs(g_i) M + m.
+    let great = |sin: f64| with(SAME_WAY, 15.0, sin, &|c| c.parameters.delta = 0.01);
+    assert_eq!([0.079, 0.081, 0.119, 0.121].map(great), [YES, NEAR_SAFE, NEAR_UNSAFE, NO]);
 }
