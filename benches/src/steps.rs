@@ -297,13 +297,13 @@ fn straight(count: u32) -> Vec<CrossSection> {
     places(count, 0.0625 * 1.25).map(|x| cross_section(x - 2.5)).collect()
 }
 
-/// Across the way, which is on the line through the boundaries of its middle, nearer than places are told apart in
+/// Nearly across the way, which is on the line through the boundaries of its middle, nearer than places are told apart in
 /// plain doubles.
 fn aside(count: u32) -> Vec<CrossSection> {
     let middle = 0.5 * f64::from(count);
     let cross_section = |i: f64| {
         let y = 0.1 * (i - middle) + 1e-9;
-        CrossSection { x: 40.0, y: y + 0.05, left: [-5.0, y], right: [90.0, y] }
+        CrossSection { x: 40.0 + 1e-3 * i, y: y + 0.05, left: [-5.0, y], right: [90.0, y] }
     };
     places(count, 1.0).map(cross_section).collect()
 }

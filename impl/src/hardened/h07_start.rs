@@ -2,12 +2,13 @@
 //! of `spec/hardened/H-07.md`).
 
 use crate::input::cycle::{Cycle, TrajectoryPoint};
-use crate::numbers::plane::{Vector, distance, segment_distance};
+use crate::numbers::plane::{Vector, distance};
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, STEPS, Segment};
+use crate::stages::llcc::sweep::split;
 
 /// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
 /// it turns faster than 1.7 rad/s.
@@ -102,23 +103,25 @@ fn not_along(
 ) -> Option<Witness> {
     let q = [point.x, point.y];
     *hint = route.nearer(q, *hint);
-    if certainly_along(route, point, *hint) {
+    // Of these the nearest is one.
+    if route.segments(q, route.at_most(q, *hint)).all(|it| is_along(point, &it)) {
         return None;
     }
-    let heading = Vector::new(point.cos, point.sin);
-    let (least, nearest) = route.path_distance(q, *hint);
+    let (away, nearest) = route.about(q, *hint);
     *hint = nearest;
-    let near = route.segments(q, least.magnitude());
-    near.filter(|segment| !IndexedRoute::is_farther(q, segment, least)).find_map(|segment| {
-        let away = segment_distance(q, segment.from, segment.to);
-        let along = heading.dot(Vector::between(segment.from, segment.to));
-        // H-07.7
-        if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
-            return None;
-        }
-        let witness = Witness::of(Rule::Direction, [along.value(), 0.0]);
-        Some(Witness { segment: Some(segment.index), ..witness })
-    })
+    // H-07.7
+    let found = route.nearest(q, away).find(|it| !is_along(point, it))?;
+    let [along, _] = split([point.cos, point.sin], found.way());
+    let witness = Witness::of(Rule::Direction, [along, 0.0]);
+    Some(Witness { segment: Some(found.index), ..witness })
+}
+
+/// Whether the heading certainly is along the segment. A dot product errs by less than 2^-50 of the sum of its
+/// summands' sizes.
+fn is_along(point: &TrajectoryPoint, segment: &Segment) -> bool {
+    let [x, y] = segment.way();
+    let (x, y) = (point.cos * x, point.sin * y);
+    x + y > (x.abs() + y.abs()) * 1e-15 + 1e-300
 }
 
 /// So many points are looked at together.
@@ -156,19 +159,6 @@ fn all_certainly_along(
         *hint = near;
     }
     are_along
-}
-
-/// Whether the heading is certainly along every segment that is at most as far as the one of the
-/// hint, of which the nearest is one. A dot product errs by less than 2^-50 of the sum of its
-/// summands' sizes.
-fn certainly_along(route: IndexedRoute<'_, '_>, point: &TrajectoryPoint, hint: usize) -> bool {
-    let q = [point.x, point.y];
-    let reach = route.at_most(q, hint);
-    route.segments(q, reach).all(|segment| {
-        let ([ax, ay], [bx, by]) = (segment.from, segment.to);
-        let (x, y) = (point.cos * (bx - ax), point.sin * (by - ay));
-        x + y > (x.abs() + y.abs()) * 1e-15 + 1e-300
-    })
 }
 
 impl IndexedRoute<'_, '_> {

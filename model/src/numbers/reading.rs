@@ -89,11 +89,13 @@ impl Comparisons {
         b + &self.m
     }
 
-    /// The largest number that may be the least one: exactly that, else delta more.
+    /// The largest number that may be the least one: exactly that, else the greater of delta and 10^-5 more.
     pub fn nearly(&self, least: &Real) -> Real {
         match self.reading {
             Reading::Exact => least.clone(),
-            Reading::Strict | Reading::Lax => least + &self.delta,
+            Reading::Strict | Reading::Lax => {
+                least + self.delta.clone().max(Real::from_double(1e-5))
+            }
         }
     }
 

@@ -6,17 +6,17 @@
 use crate::cycle::steps::{BESIDE, SEGMENT};
 use crate::hardened::h14_fail_safe::path::{Path, Piece};
 use crate::hardened::h14_fail_safe::work::Work;
-use crate::input::cycle::Ego;
+use crate::input::cycle::{CrossSection, Ego};
 use crate::numbers::range::{larger, smaller};
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
 use crate::stages::llcc::sweep::{minus, split};
 
 /// More than what is compared here errs: m, or a part of 1.
-pub(super) const ERROR: f64 = 1e-5;
+const ERROR: f64 = 1e-5;
 /// More than the direction of q errs.
 const ASKEW: f64 = 3e-7;
 /// What is shorter has no direction here, m.
-pub(super) const SHORT: f64 = 1e-9;
+const SHORT: f64 = 1e-9;
 /// What the sine of the heading may be, and more for each m of progress: a path that bends.
 pub(super) const BEND: f64 = 0.05;
 pub(super) const RADIUS: f64 = 30.0;
@@ -182,4 +182,22 @@ fn extent(ego: &Ego, heading: [f64; 2], segment: &Segment) -> f64 {
     let extent = 0.5 * (along * ego.width + across * ego.length) / length;
     // Of what is shorter the square underflows; in the strict model a route with it turns.
     if length > 1e-100 { extent } else { f64::MAX }
+}
+
+impl<'a> IndexedRoute<'_, 'a> {
+    /// Whether a place certainly lies beyond neither end of the reference path, if it has ends (H-14.39).
+    fn has_beside(&self, [x, y]: [f64; 2]) -> bool {
+        self.ends().all(|(end, next)| {
+            let (u, v) = (next.x - end.x, next.y - end.y);
+            (x - end.x) * u + (y - end.y) * v > ERROR * (u.abs() + v.abs()) + SHORT
+        })
+    }
+
+    /// The ends of an open route, each with the reference point next to it (H-14.39).
+    fn ends(&self) -> impl Iterator<Item = (&'a CrossSection, &'a CrossSection)> {
+        let (cross_sections, last) = (self.route.cross_sections, self.pairs());
+        let ends = [[0, 1], [last, last.saturating_sub(1)]];
+        let open = ends.into_iter().take(if self.route.closed { 0 } else { 2 });
+        open.filter_map(move |[end, next]| cross_sections.get(end).zip(cross_sections.get(next)))
+    }
 }

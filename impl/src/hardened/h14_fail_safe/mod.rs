@@ -6,7 +6,6 @@ mod cover;
 mod meeting;
 mod motion;
 mod motions;
-mod nearest;
 pub(crate) mod nodes;
 pub(crate) mod path;
 pub(crate) mod reach;

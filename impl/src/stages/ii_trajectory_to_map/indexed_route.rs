@@ -85,48 +85,28 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         })
     }
 
-    /// The distance to the reference path in plain doubles, which err by less than 2e-6 m, and a segment that
-    /// is so near.
+    /// The distance to the reference path in plain doubles, which err by less than 2^-22 m, and the segment that is so
+    /// near; `hint`: one that may be near.
     pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
         let near = self.nearer(q, hint);
         let reach = self.at_most(q, near);
-        let nearest = self.segments(q, reach).fold((f64::MAX, near), |best, segment| {
+        let (square, at) = self.segments(q, reach).fold((f64::MAX, near), |best, segment| {
             let square = segment.square_to(q);
             if square < best.0 { (square, segment.index) } else { best }
         });
-        (self.at_most(q, nearest.1), nearest.1)
+        (libm::sqrt(square), at)
     }
 
-    /// The distance to the reference path; `hint`: index of a segment that may be near. The index
-    /// of the segment returned depends on the hint, the distance does not but for its bound.
-    pub(crate) fn path_distance(&self, q: [f64; 2], hint: usize) -> (Real, usize) {
-        let length = |s: &Segment| segment_distance(q, s.from, s.to);
-        // Else each segment of a path that comes nearer and nearer would be compared with error bounds.
-        let (_, near) = self.about(q, hint);
-        let unknown = (Real::new(f64::MAX), near);
-        let start = self.segment(near).map_or(unknown, |segment| (length(&segment), near));
-        let reach = start.0.magnitude();
-        self.segments(q, reach).fold(start, |(best, at), segment| {
-            if segment.index == near || Self::is_farther(q, &segment, best) {
-                return (best, at);
-            }
-            let candidate = length(&segment);
-            let nearer = (candidate - best).value() < 0.0;
-            let at = if nearer { segment.index } else { at };
-            (best.min(candidate), at)
-        })
-    }
-
-    /// Whether the segment certainly is farther than that, in plain doubles, which err by less than 2^-22 m.
-    pub(crate) fn is_farther(q: [f64; 2], segment: &Segment, distance: Real) -> bool {
-        let reach = distance.magnitude() + 1e-5;
-        segment.square_to(q) > reach * reach
+    /// The segments that may be as near as the nearest one, which is `away` m in plain doubles.
+    pub(crate) fn nearest(&self, q: [f64; 2], away: f64) -> impl Iterator<Item = Segment> {
+        let reach = away + 1e-6;
+        self.segments(q, reach).filter(move |it| it.square_to(q) <= reach * reach)
     }
 
     /// The witness that a place is too far from the reference path.
     pub(crate) fn too_far(&self, q: [f64; 2], hint: usize, rule: Rule, limit: f64) -> Witness {
-        let (away, segment) = self.path_distance(q, hint);
-        Witness { segment: Some(segment), ..Witness::of(rule, [away.value(), limit]) }
+        let (away, segment) = self.about(q, hint);
+        Witness { segment: Some(segment), ..Witness::of(rule, [away, limit]) }
     }
 
     /// From the cross sections of the hint forward while the point is beyond the next ones, in plain

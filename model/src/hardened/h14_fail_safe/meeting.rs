@@ -291,9 +291,8 @@ fn bends(scene: &Scene, h_k: &Vector, progress: &Real) -> bool {
 /// most the greater of m and 10^-5 m farther, too.
 fn nearest<'a>(scene: &Scene, path: &'a [Segment], point: &Vector) -> (Real, Vec<&'a Segment>) {
     let Beside { distance, distances, .. } = beside(point, path);
-    let (delta, alike) = (scene.reads.delta.clone(), Real::from_double(1e-5));
-    let more = if scene.reads.is_strict() { delta.max(alike) } else { Real::zero() };
-    let most = &distance + more;
+    let nearly = || scene.reads.nearly(&distance);
+    let most = if scene.reads.is_strict() { nearly() } else { distance.clone() };
     let is_near = |(_, far): &(&Segment, &Real)| **far <= most;
     let nearest = path.iter().zip(&distances).filter(is_near).map(|(segment, _)| segment);
     (distance.clone(), nearest.collect())

@@ -288,5 +288,5 @@ fn every_nearest_point_and_segment_is_asked() {
     };
     // Laxly there is no place at s_stop.
     assert_eq!([corner(10.75, 2.6), corner(10.75, 2.7)], [NEAR_UNSAFE, YES]);
-    assert_eq!([corner(10.750009, 2.6), corner(10.750011, 2.6)], [NEAR_SAFE, YES]);
+    assert_eq!([corner(10.750_009, 2.6), corner(10.750_011, 2.6)], [NEAR_SAFE, YES]);
 }
