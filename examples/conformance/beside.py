@@ -22,8 +22,10 @@ class Beside:
     @cached_property
     def lines(self):
         """The segments of the reference path, from the CAV on."""
-        at = [tuple(map(float, displacement(self.ego, it))) for it in self.route["stations"]]
-        return [(a, b) for a, b in segments({**self.route, "stations": at}) if a != b]
+        at = [displacement(self.ego, it) for it in self.route["stations"]]
+        rounded = lambda point: tuple(map(float, point))
+        return [(rounded(a), rounded(b))
+                for a, b in segments({**self.route, "stations": at}) if a != b]
 
     @cached_property
     def route_bends(self):
@@ -101,14 +103,14 @@ class Beside:
         return any(motion.is_on(cav, place.pose) for place in self.places)
 
     def needed(self, motion, x, y):
-        """The room that it needs along q, which is known to 3e-7 of its length."""
+        """The room that it needs along q, which is known to 4e-7 of its length."""
         item, D = motion.item, math.hypot(x, y)
         c, s, w = item["cos"], item["sin"], motion.speed
-        half = (abs(c * x + s * y) * item["length"] + abs(c * y - s * x) * item["width"]) / 2 + 3e-5 * D
+        half = (abs(c * x + s * y) * item["length"] + abs(c * y - s * x) * item["width"]) / 2 + 4e-5 * D
         drift = abs(float(motion.w[0]) * x + float(motion.w[1]) * y) / D
         if motion.is_behind and drift < w * (0.1 - ERROR):
             return half / D
-        return half / D + (drift + 3e-7 * w) * max(self.T, motion.yielded)
+        return half / D + (drift + 4e-7 * w) * max(self.T, motion.yielded)
 
 
 def from_nearest(c, a, b):

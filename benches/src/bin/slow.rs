@@ -19,7 +19,7 @@ use mufasa_benches::steps::{allowed, just_enough};
 use mufasa_benches::worst::{NOW_NS, base, earlier, list, timed, tracks, trajectory};
 
 const STAGES: [&str; 6] = ["input", "i", "ii", "iii", "iv", "v"];
-const BYTES: usize = 29;
+const BYTES: usize = 30;
 type Bytes = [u8; BYTES];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -175,12 +175,21 @@ fn plan(it: &mut Choice<'_>) -> Vec<TrajectoryPoint> {
     timed(points.collect())
 }
 
-/// Straight on, of parts of which no three are about equally near to one place.
+/// Straight on, or back and forth, in parts that are about equally near to a place.
 fn road(it: &mut Choice<'_>) -> Vec<CrossSection> {
-    let (count, step) = (it.of(&[3_u8, 16, 64, 255]), it.of(&[0.5, 4.0, 100.0]));
+    let (count, step) = (it.of(&[3_u8, 16, 64, 255]), it.of(&[1e-3, 0.5, 4.0, 100.0]));
     let half = it.of(&[0.3, 3.0, 100.0]);
-    let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, half], right: [x, -half] };
-    (0..count).map(|at| cross_section(f64::from(at) * step - 20.0)).collect()
+    let folded = it.of(&[None, None, Some(0.0), Some(1e-7), Some(1e-3)]);
+    let cross_section = |at: u8| {
+        let number = f64::from(at);
+        let (x, y) = match folded {
+            Some(apart) if !at.is_multiple_of(2) => (80.0, apart * number),
+            Some(apart) => (-20.0, apart * number),
+            None => (number * step - 20.0, 0.0),
+        };
+        CrossSection { x, y, left: [x, y + half], right: [x, y - half] }
+    };
+    (0..count).map(cross_section).collect()
 }
 
 /// Objects in a row beside the CAV's way, all of one kind.

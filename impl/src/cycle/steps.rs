@@ -23,8 +23,8 @@ pub(crate) const BOX: u64 = 48;
 /// into).
 pub(crate) const PAIR: u64 = 16;
 pub(crate) const SUPPORT: u64 = 64;
-/// An object beside the route, and a segment near it.
-pub(crate) const BESIDE: u64 = 256;
+/// An object beside the route, and a segment that is looked at for it.
+pub(crate) const BESIDE: u64 = 512;
 pub(crate) const SEGMENT: u64 = 32;
 
 /// Sizes of the input of a cycle. Source: `spec/4-arithmetic.md#steps`.
@@ -260,7 +260,7 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
             sum([
                 product([1024, p]),
                 product([224, k]),
-                product([10, k, s]),
+                product([12, k, s]),
                 product([4, d, t.saturating_add(d)]),
                 // What is begun before it is too much.
                 product([has_objects, sum([8192, product([SEGMENT, s])])]),
@@ -284,7 +284,7 @@ fn fail_safe_work(counts: &Counts) -> u64 {
 
 /// The most that one motion takes.
 fn motion(places: u64, cross_sections: u64) -> u64 {
-    sum([6400, product([1088, places]), product([SEGMENT, cross_sections])])
+    sum([6656, product([1088, places]), product([SEGMENT, cross_sections])])
 }
 
 fn sum<const N: usize>(terms: [u64; N]) -> u64 {

@@ -199,11 +199,12 @@ fn tracks_on_the_edge_count_both_ways() {
     assert_eq!(safe(&six), YES);
 }
 
-/// Strict asks every segment that may be the nearest, lax some.
+/// Strict asks every segment that may be the nearest, by the greater of delta and 10^-5 m, lax some.
 #[test]
 fn nearest_segments_within_delta_are_asked() {
-    let with = |y: f64| {
+    let with = |delta: f64, y: f64| {
         let mut cycle = base(Profile::HARDENED, PlanRemote);
+        cycle.parameters.delta = delta;
         // Two parallel ways, 2 m apart, the second against the first.
         let cross_section =
             |x: f64, y: f64| CrossSection { x, y, left: [x, 90.0], right: [x, -90.0] };
@@ -218,11 +219,13 @@ fn nearest_segments_within_delta_are_asked() {
         }
         safe(&cycle)
     };
-    assert_eq!(with(-1e-6), YES);
-    assert_eq!(with(-0.25e-6), NEAR_SAFE);
-    assert_eq!(with(0.0), NEAR_SAFE);
-    assert_eq!(with(0.25e-6), NEAR_UNSAFE);
-    assert_eq!(with(1e-6), NO);
+    for (delta, near) in [(1e-6, 1e-5), (1e-3, 1e-3)] {
+        assert_eq!(with(delta, -near), YES);
+        assert_eq!(with(delta, -0.25 * near), NEAR_SAFE);
+        assert_eq!(with(delta, 0.0), NEAR_SAFE);
+        assert_eq!(with(delta, 0.25 * near), NEAR_UNSAFE);
+        assert_eq!(with(delta, near), NO);
+    }
 }
 
 /// "a step of length 0 passes in every model"

@@ -1,7 +1,7 @@
 //! Who keeps beside the path (`spec/hardened/H-14.md#requirements-not-examined`).
 //!
 //! Plain doubles decide: what is closer than `ERROR` does not keep beside, as MARGIN-18 allows. Distances
-//! here err by less than 1e-5 m, and directions by less than 2e-7.
+//! here err by less than 1e-5 m, and directions by less than 4e-7.
 
 use crate::cycle::steps::{BESIDE, SEGMENT};
 use crate::hardened::h14_fail_safe::path::{Path, Piece};
@@ -14,7 +14,7 @@ use crate::stages::llcc::sweep::{minus, split};
 /// More than what is compared here errs: m, or a part of 1.
 const ERROR: f64 = 1e-5;
 /// More than the direction of q errs.
-const ASKEW: f64 = 3e-7;
+const ASKEW: f64 = 4e-7;
 /// What is shorter has no direction here, m.
 const SHORT: f64 = 1e-9;
 /// What the sine of the heading may be, and more for each m of progress: a path that bends.
@@ -61,28 +61,27 @@ impl<'c, 'a> Beside<'c, 'a> {
 
     /// Whether the object certainly does (H-14.36), if it does not lie across the way.
     pub(super) fn keeps(&mut self, object: &Passing, work: &Work) -> bool {
-        let new = || Lane::new(&self.path, self.route, self.aside).unwrap_or(Lane::CLOSED);
-        let lane = *self.lane.get_or_insert_with(new);
+        let new = || Lane::new(&self.path, self.route, self.aside);
+        let Lane { sides, hint } = *self.lane.get_or_insert_with(new);
+        let Some([least, greatest]) = sides else { return false };
         if !object.comes_towards && !self.is_straight() {
             return false;
         }
-        work.add(BESIDE);
-        let (away, _) = self.route.about(object.centre, lane.hint);
+        let hint = self.route.nearer(object.centre, hint);
+        let looked_at = self.route.count_within(object.centre, hint);
+        work.add(BESIDE.saturating_add(SEGMENT.saturating_mul(looked_at)));
+        let (away, _) = self.route.about(object.centre, hint);
         // H-14.37
         if !(NEAREST..FARTHEST - ERROR).contains(&away) || !self.route.has_beside(object.centre) {
             return false;
         }
         //
-        let [least, greatest] = lane.sides;
         let [length, width] = object.half;
         let askew = ASKEW * (object.speed * object.until + length + width);
         let room = larger(least - away, away - greatest) - ERROR - askew;
         // H-14.44
         let mut nearest = self.route.nearest(object.centre, away);
-        nearest.all(|segment| {
-            work.add(SEGMENT);
-            needed(object, segment.towards(object.centre)) < room
-        })
+        nearest.all(|segment| needed(object, segment.towards(object.centre)) < room)
     }
 
     /// Whether lanes certainly run straight on for who does not come towards the CAV.
@@ -108,60 +107,53 @@ fn needed(object: &Passing, q: [f64; 2]) -> f64 {
 /// How far places reach to the sides of the reference path, all of them together.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
-    /// A and B of the text, m.
-    sides: [f64; 2],
+    /// A and B of the text, m; none where the path may bend too much, lie beyond an end of the route, or end anywhere.
+    sides: Option<[f64; 2]>,
     /// A segment that is near.
     hint: usize,
 }
 
 impl Lane {
-    /// With room for nothing.
-    const CLOSED: Self = Self { sides: [f64::MIN, f64::MAX], hint: 0 };
-
-    /// None where the path may bend too much, lie beyond an end of the route, or end anywhere.
-    fn new(path: &Path<'_, '_>, route: IndexedRoute<'_, '_>, aside: f64) -> Option<Self> {
+    fn new(path: &Path<'_, '_>, route: IndexedRoute<'_, '_>, aside: f64) -> Self {
         let ego = &path.nodes.cycle.ego;
+        let mut hint = 0;
+        route.in_corridor([ego.x, ego.y], &mut hint);
         if turns(route, ego, RADIUS) {
-            return None;
+            return Self { sides: None, hint };
         }
-        let mut lane = Self { sides: [f64::MAX, f64::MIN], hint: 0 };
-        route.in_corridor([ego.x, ego.y], &mut lane.hint);
-        for piece in path.pieces() {
-            if !piece.has_certain_end() {
-                return None;
-            }
-            for k in 0..piece.count() {
-                lane.add(ego, (&piece, k), route, aside)?;
-            }
-        }
-        Some(lane)
+        let pieces = path.pieces();
+        let mut places = pieces.flat_map(|piece| (0..piece.count()).map(move |k| (piece, k)));
+        let sides = places.try_fold([f64::MAX, f64::MIN], |[least, greatest], place| {
+            let (away, reach) = reach(ego, place, route, &mut hint)?;
+            let reach = reach + aside;
+            Some([smaller(least, away - reach), larger(greatest, away + reach)])
+        });
+        Self { sides, hint }
     }
+}
 
-    /// With one more place.
-    fn add(
-        &mut self,
-        ego: &Ego,
-        (piece, k): (&Piece, i64),
-        route: IndexedRoute<'_, '_>,
-        aside: f64,
-    ) -> Option<()> {
-        let ([x, y], [cos, sin]) = (piece.plainly(k), piece.heading());
-        let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
-        let h = [ego.cos, ego.sin];
-        let ([progress, _], [_, turned]) =
-            (split(h, minus([x, y], [ego.x, ego.y])), split(h, [cos, sin]));
-        // H-14.41; H-14.39
-        if turned.abs() > BEND + progress / RADIUS - ERROR || !route.has_beside(centre) {
-            return None;
-        }
-        let (away, near) = route.about(centre, self.hint);
-        let extents = route.nearest(centre, away).map(|it| extent(ego, [cos, sin], &it));
-        let reach = extents.fold(0.0, larger) + aside;
-        let [least, greatest] = self.sides;
-        self.sides = [smaller(least, away - reach), larger(greatest, away + reach)];
-        self.hint = near;
-        Some(())
+/// `D_k` and `E_k` without the widening, m; none where the path may bend too much, lie beyond an end of the route, or end
+/// anywhere. `hint`: a segment that is near.
+fn reach(
+    ego: &Ego,
+    (piece, k): (Piece, i64),
+    route: IndexedRoute<'_, '_>,
+    hint: &mut usize,
+) -> Option<(f64, f64)> {
+    let ([x, y], [cos, sin]) = (piece.plainly(k), piece.heading());
+    let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
+    let h = [ego.cos, ego.sin];
+    let ([progress, _], [_, turned]) =
+        (split(h, minus([x, y], [ego.x, ego.y])), split(h, [cos, sin]));
+    // H-14.41; H-14.39
+    let bends_little = turned.abs() < BEND + progress / RADIUS - ERROR;
+    if !bends_little || !route.has_beside(centre) || k == 0 && !piece.has_certain_end() {
+        return None;
     }
+    let (away, near) = route.about(centre, *hint);
+    *hint = near;
+    let extents = route.nearest(centre, away).map(|it| extent(ego, [cos, sin], &it));
+    Some((away, extents.fold(0.0, larger)))
 }
 
 /// Whether a segment of the route may turn more than a bend of that radius does (H-14.40), m; none
@@ -170,7 +162,7 @@ fn turns(route: IndexedRoute<'_, '_>, ego: &Ego, radius: f64) -> bool {
     let p = [ego.x, ego.y];
     route.segments(p, radius).any(|segment| {
         let [_, across] = split([ego.cos, ego.sin], segment.way());
-        let most = BEND + route.at_most(p, segment.index) / radius - ERROR;
+        let most = BEND + libm::sqrt(segment.square_to(p)) / radius - ERROR;
         across.abs() + SHORT > segment.length() * most
     })
 }

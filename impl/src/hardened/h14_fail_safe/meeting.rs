@@ -1,7 +1,7 @@
 //! Whether an object meets the CAV (`spec/hardened/H-14.md#requirements-the-cav`, `#requirements-not-examined`, `#requirements-failure`).
 //!
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, by
-//! `spot`; with error bounds alone, once an object, that it comes across the CAV, follows it or keeps beside it.
+//! `spot`; with error bounds, once an object, that it comes across the CAV or follows it.
 
 use core::cell::LazyCell;
 
@@ -37,7 +37,7 @@ pub(super) struct Meeting<'c, 'a> {
     trajectory: &'c [TrajectoryPoint],
     /// As wide as at the places.
     ego: Ego,
-    aside: Real,
+    aside: f64,
     clock: Clock,
     covers: Covers,
     route: IndexedRoute<'c, 'a>,
@@ -51,9 +51,9 @@ impl<'c, 'a> Meeting<'c, 'a> {
         trajectory: &'c [TrajectoryPoint],
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
-        let (cycle, aside) = (nodes.cycle, aside(&nodes.cycle.ego, trajectory.first()));
+        let (cycle, aside) = (nodes.cycle, aside(&nodes.cycle.ego, trajectory.first()).magnitude());
         // H-14.26: as wide as at the places, or by less than 1e-13 of it more.
-        let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
+        let width = (cycle.ego.width + 2.0 * aside) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
         let covers = Covers::new(&ego, nodes, &clock.times);
         Self { nodes, trajectory, ego, aside, clock, covers, route, places: None }
@@ -126,8 +126,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let places = places.get_or_insert_with(|| {
             let path = Path::new(*nodes);
             let points = trajectory.len();
-            let (starts, beside) =
-                (starts(&path, covers), Beside::new(&path, *route, aside.magnitude()));
+            let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
             Places { path, points, ego: *ego, starts, beside }
         });
         let boxes = (&*covers, &*clock, work);

@@ -329,10 +329,13 @@ impl Piece {
 
     /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18).
     pub(crate) fn has_certain_end(&self) -> bool {
-        let [x, y] = [self.u.x, self.u.y].map(|it| it.value().abs());
         let k = self.n.max(self.count().saturating_sub(1));
-        let error = (self.s_stop - self.node.progress).off() * (x + y);
-        self.progress(k).certainly_below(self.s_stop) || error < 1e-6 * self.gain.value()
+        if self.is_over && self.count() == 1 || self.progress(k).certainly_below(self.s_stop) {
+            return true;
+        }
+        let [x, y] = [self.u.x, self.u.y].map(|it| it.value().abs());
+        let share = (self.s_stop - self.node.progress).over(self.gain);
+        self.gain.value() > 0.0 && share.off() * (x + y) < 1e-6
     }
 
     pub(crate) const fn heading(&self) -> [f64; 2] {

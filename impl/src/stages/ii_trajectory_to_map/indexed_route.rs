@@ -97,6 +97,12 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         (libm::sqrt(square), at)
     }
 
+    /// How many segments `about` looks at, with the hint that `nearer` gives.
+    pub(crate) fn count_within(&self, q: [f64; 2], hint: usize) -> u64 {
+        let seen = candidates(self.index, self.pairs(), q, self.at_most(q, hint)).count();
+        u64::try_from(seen).unwrap_or(u64::MAX)
+    }
+
     /// The segments that may be as near as the nearest one, which is `away` m in plain doubles.
     pub(crate) fn nearest(&self, q: [f64; 2], away: f64) -> impl Iterator<Item = Segment> {
         let reach = away + 1e-6;

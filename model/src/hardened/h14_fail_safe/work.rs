@@ -43,7 +43,7 @@ pub fn of_pairs(scene: &Scene) -> i128 {
 
 /// K being the places that the list has without an end by distance, E those whose progress is above s_stop - delta, and
 /// C the cross sections: 320 for each motion; where it comes near the path, 3360 + 528 (K + E) more; where it keeps
-/// beside as well, 1456 + 528 (K + E) + 32 C more.
+/// beside as well, 1712 + 528 (K + E) + 32 C more.
 pub fn of_motions(
     scene: &Scene,
     trajectory: &[Point],
@@ -56,7 +56,7 @@ pub fn of_motions(
     let e = places.iter().filter(|place| place.progress > last).count() as i128;
     let c = scene.route.cross_sections.len() as i128;
     let path = extents(scene, trajectory);
-    let (near, beside) = (3360 + 528 * (k + e), 1456 + 528 * (k + e) + 32 * c);
+    let (near, beside) = (3360 + 528 * (k + e), 1712 + 528 * (k + e) + 32 * c);
     let comes_near = motions.iter().filter(|motion| comes_near(scene, &path, motion));
     let keeps_beside = comes_near
         .clone()

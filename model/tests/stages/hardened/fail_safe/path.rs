@@ -301,7 +301,7 @@ fn who_keeps_beside_takes_more_work() {
     (beside.detections, beside.parameters.work_limit) = (None, 0);
     let scene = scene(&beside, Reading::Strict);
     let witness = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
-    let (near, keeps_beside) = (3360 + 528 * 8, 1456 + 528 * 8 + 32 * 2);
+    let (near, keeps_beside) = (3360 + 528 * 8, 1712 + 528 * 8 + 32 * 2);
     let work = witness.expect("there is work").compared[0].to_string();
     assert_eq!(work, (320 + near + keeps_beside).to_string());
 }
