@@ -12,7 +12,7 @@ use mufasa::input::profile::Profile;
 use mufasa::report::{Outcome, Rule, Stage};
 
 /// Their names, and what is run: a stage, or the checks of the input.
-pub const INPUTS: [(&str, Option<Stage>); 22] = [
+pub const INPUTS: [(&str, Option<Stage>); 23] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -31,6 +31,7 @@ pub const INPUTS: [(&str, Option<Stage>); 22] = [
     ("detections", Some(Stage::Iv)),
     ("moving", Some(Stage::Iv)),
     ("beside-route", Some(Stage::Iv)),
+    ("far-behind", Some(Stage::Iv)),
     ("touching", Some(Stage::Iv)),
     ("coming", Some(Stage::Iv)),
     ("cells", Some(Stage::V)),
@@ -97,6 +98,8 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
     let seen = [300, 500, 800].map(|ms| earlier(&moved, ms));
     // They drift from the other lane into the CAV's way.
     let oncoming = numbered(&|id| Track { vx: -20.0, vy: -2.0, ..track(id, 60.0, 4.0) });
+    // They keep beside, of a route that is looked through.
+    let behind = numbered(&|id| Track { vx: 30.0, vy: -0.9, ..track(id, -100.0, 4.7) });
 
     let strict = Parameters { theta_tr: 0.2, ..base.parameters };
     let wide = Parameters { theta_map: 1e3, ..base.parameters };
@@ -148,6 +151,12 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
             let tracks = Some(tracks(&oncoming));
             Cycle { tracks, detections: Some(list(&[])), ..fail_safe }
         }
+        "far-behind" => Cycle {
+            ego: Ego { speed: 2.0, ..base.ego },
+            tracks: Some(tracks(&behind)),
+            detections: Some(list(&[])),
+            ..fail_safe
+        },
         "cells" => Cycle { grid: Some(cells), ..at_rest },
         _ => Cycle { grid: Some(cells), profile: Profile::PAPER, ..at_rest },
     };
@@ -274,6 +283,7 @@ fn until_the_points_end<'a>(cycle: &Cycle<'a>) -> Cycle<'a> {
 fn road(input: &str, size: u32) -> Vec<CrossSection> {
     match input {
         "along-route" => straight(8 * size),
+        "far-behind" => places(64 * size, 0.1).map(|x| upright(x - 400.0)).collect(),
         "on-a-line" => aside(8 * size),
         input => folded(if input.ends_with("route") { 8 * size } else { 4 }),
     }
@@ -293,8 +303,11 @@ fn folded(count: u32) -> Vec<CrossSection> {
 
 /// Along the way, with more cross sections than places.
 fn straight(count: u32) -> Vec<CrossSection> {
-    let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
-    places(count, 0.0625 * 1.25).map(|x| cross_section(x - 2.5)).collect()
+    places(count, 0.0625 * 1.25).map(|x| upright(x - 2.5)).collect()
+}
+
+fn upright(x: f64) -> CrossSection {
+    CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] }
 }
 
 /// Nearly across the way, which is on the line through the boundaries of its middle, nearer than places are told apart in
