@@ -260,7 +260,7 @@ pub fn most_steps(counts: &Counts, parameters: &Parameters) -> Steps {
             sum([
                 product([1024, p]),
                 product([224, k]),
-                product([12, k, s]),
+                product([10, k, s]),
                 product([4, d, t.saturating_add(d)]),
                 // What is begun before it is too much.
                 product([has_objects, sum([8192, product([SEGMENT, s])])]),
