@@ -164,7 +164,8 @@ fn input(bytes: &Bytes, stage: Option<Stage>, run: &mut dyn FnMut(&Cycle<'_>)) {
 fn plan(it: &mut Choice<'_>) -> Vec<TrajectoryPoint> {
     let (count, bend) = (it.of(&[2, 4, 32, 128]), it.of(&[0.0, 0.0, 0.001, 0.01, 0.05]));
     let step = it.of(&[0.0, 0.008, 0.13, 0.24, 0.26, 0.5, 1.0, 3.0]);
-    let (mut x, mut y, mut angle) = (-1.0, it.of(&[0.0, 1e-7, 0.01, 1.0]), 0.0_f64);
+    let (mut x, mut y, mut angle) =
+        (-1.0, it.of(&[0.0, 1e-7, 0.01, 1.0, 0.3 - 1e-9, 0.3 - 1e-5]), 0.0_f64);
     let turn = it.of(&[0.0, 0.0, 0.3, 0.66]);
     let points = (1..=count).map(|number| {
         let (sin, cos) = (angle + if number == count { turn } else { 0.0 }).sin_cos();

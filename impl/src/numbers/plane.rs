@@ -69,33 +69,3 @@ pub(crate) fn same_point([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> bool {
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> Real {
     Vector::between(a, b).norm()
 }
-
-/// Distance of point `q` to the closed segment from `a` to `b`, m.
-///
-/// Where rounding leaves open which of the three formulas holds, all that may hold are joined;
-/// they differ by no more than the error of the projection.
-pub(crate) fn segment_distance(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Real {
-    let (along, to_q) = (Vector::between(a, b), Vector::between(a, q));
-    let length_squared = along.dot(along);
-    if length_squared.value() < SHORT * SHORT {
-        return to_q.norm().widened(2.0 * SHORT);
-    }
-    let projection = along.dot(to_q);
-    let mut result: Option<Real> = None;
-    let mut join = |candidate: Real| {
-        result = Some(result.map_or(candidate, |known| known.either(candidate)));
-    };
-    if projection.possibly_at_most(Real::ZERO) {
-        join(to_q.norm());
-    }
-    if length_squared.possibly_at_most(projection) {
-        join(distance(b, q));
-    }
-    if Real::ZERO.possibly_below(projection) && projection.possibly_below(length_squared) {
-        join(along.cross(to_q).abs().over(length_squared.sqrt()));
-    }
-    result.unwrap_or_else(|| to_q.norm().widened(f64::INFINITY))
-}
-
-/// Segments shorter than this count as their first point, with twice this as bound: 2^-200 m.
-const SHORT: f64 = f64::from_bits((1023 - 200) << 52);

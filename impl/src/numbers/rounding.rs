@@ -78,12 +78,6 @@ impl Real {
         Self { err: (self.err + by) * BOUND_UP, ..self }
     }
 
-    /// A number that is certainly one of the two, one knows not which.
-    pub(crate) fn either(self, other: Self) -> Self {
-        let gap = self - other;
-        self.widened(gap.magnitude() + other.err)
-    }
-
     /// self * self.
     pub(crate) fn squared(self) -> Self {
         self * self

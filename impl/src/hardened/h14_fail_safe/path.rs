@@ -335,7 +335,7 @@ impl Piece {
         }
         let [x, y] = [self.u.x, self.u.y].map(|it| it.value().abs());
         let share = (self.s_stop - self.node.progress).over(self.gain);
-        self.gain.value() > 0.0 && share.off() * (x + y) < 1e-6
+        x + y < 1e-6 || self.gain.value() > 0.0 && share.off() * (x + y) < 1e-6
     }
 
     pub(crate) const fn heading(&self) -> [f64; 2] {

@@ -7,7 +7,6 @@ use crate::hardened::h14_fail_safe::path::Path;
 use crate::input::cycle::{CrossSection, Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
-use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, triangles};
 use crate::stages::llcc::sweep::minus;
@@ -34,7 +33,8 @@ pub(crate) fn road_failure(
         let is_inside = |run: [i64; 2]| {
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
             let is_one = run[0] == run[1];
-            let place = || is_one.then(|| route.between(piece.place(run[0]).pose.at)).flatten();
+            let is_known = is_one && piece.has_certain_end();
+            let place = || is_known.then(|| route.between(piece.plainly(run[0]))).flatten();
             let found = route.plainly_between(ends, hint).or_else(place);
             hint = found.unwrap_or(hint);
             // H-14.58, A-04
@@ -89,13 +89,12 @@ impl IndexedRoute<'_, '_> {
     }
 
     /// A pair of cross sections at which the place certainly is in the corridor.
-    fn between(&self, place: Vector) -> Option<usize> {
-        let q = [place.x.value(), place.y.value()];
+    fn between(&self, q: Point) -> Option<usize> {
         self.pairs_around(q, MARGIN).find(|&at| {
             self.pair(at).is_some_and(|(a, b)| {
-                enclose(&of_pair(a, b), place)
-                    || self.after(at).is_some_and(|c| enclose(&across(a, b, c), place))
-                    || triangles(a, b).iter().any(|triangle| enclose(triangle, place))
+                are_inside(&of_pair(a, b), [q; 2])
+                    || self.after(at).is_some_and(|c| are_inside(&across(a, b, c), [q; 2]))
+                    || triangles(a, b).iter().any(|triangle| are_inside(triangle, [q; 2]))
             })
         })
     }
@@ -117,35 +116,6 @@ const fn across(a: &CrossSection, b: &CrossSection, c: &CrossSection) -> [Point;
 fn sides<const N: usize>(corners: &[Point; N]) -> impl Iterator<Item = [Point; 2]> {
     let mut from = corners.last().copied().unwrap_or_default();
     corners.iter().map(move |&to| [core::mem::replace(&mut from, to), to])
-}
-
-/// Whether the place certainly is on the inner side of all sides. MARGIN-17: nothing is in triangles that turn
-/// differently, or have no area.
-fn enclose<const N: usize>(corners: &[Point; N], place: Vector) -> bool {
-    let q = [place.x.value(), place.y.value()];
-    let is_beside = |side: Ordering| sides(corners).any(|it| sign(it, q) == side);
-    if is_beside(Less) && is_beside(Greater) {
-        return false;
-    }
-    let beside = |[from, to]: [Point; 2], at: Vector| {
-        Vector::between(from, to).cross(at - Vector::new(from[0], from[1]))
-    };
-    // The triangles have the first corner in common.
-    let [first, behind @ ..] = &corners[..] else { return false };
-    let areas = || {
-        let pairs = behind.iter().zip(behind.iter().skip(1));
-        pairs.map(|(from, to)| beside([*first, *from], Vector::new(to[0], to[1])))
-    };
-    let is_left = areas().all(|area| Real::ZERO.certainly_below(area));
-    let is_right = areas().all(|area| area.certainly_below(Real::ZERO));
-    if !is_left && !is_right {
-        return false;
-    }
-    sides(corners).all(|side| {
-        let beside = beside(side, place);
-        let [least, most] = if is_left { [Real::ZERO, beside] } else { [beside, Real::ZERO] };
-        least.certainly_at_most(most)
-    })
 }
 
 /// Whether both points, and so all between them, certainly are inside, in plain doubles.

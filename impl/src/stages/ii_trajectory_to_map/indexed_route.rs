@@ -6,9 +6,8 @@ use core::cmp::Ordering;
 use crate::input::cycle::{CrossSection, Route};
 use crate::input::route_index::{RouteIndex, candidates};
 use crate::numbers::exact::{certain_orientation, orientation};
-use crate::numbers::plane::{same_point, segment_distance};
+use crate::numbers::plane::same_point;
 use crate::numbers::range::{larger, smaller};
-use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::sweep::minus;
 
@@ -78,11 +77,10 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         found.is_some()
     }
 
-    /// Whether the point is certainly at most `limit` from the reference path (S2-01).
+    /// Whether the point is certainly at most `limit` from the reference path (S2-01), in plain doubles.
     pub(crate) fn certainly_near(&self, q: [f64; 2], limit: f64) -> bool {
-        self.segments(q, limit).any(|segment| {
-            segment_distance(q, segment.from, segment.to).certainly_at_most(Real::new(limit))
-        })
+        let reach = limit - 1e-6;
+        self.segments(q, reach).any(|it| it.square_to(q) <= reach * reach)
     }
 
     /// The distance to the reference path in plain doubles, which err by less than 2^-22 m, and the segment that is so

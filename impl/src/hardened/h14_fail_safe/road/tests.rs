@@ -1,8 +1,6 @@
 //! Places that are found in the corridor are in it; those in the middle of it are found.
 
 use crate::input::cycle::{CrossSection, Route};
-use crate::numbers::plane::Vector;
-use crate::numbers::rounding::Real;
 use crate::random::Random;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
@@ -27,7 +25,7 @@ fn what_is_found_is_in_the_corridor() {
         let route = IndexedRoute::new(&route, None);
         let q = [small(&mut random, 40) / 4.0, small(&mut random, 24) / 4.0];
         let is_inside = route.in_corridor(q, &mut 0);
-        let is_found = route.between(Vector::new(q[0], q[1])).is_some();
+        let is_found = route.between(q).is_some();
         let plainly = route.plainly_between([q; 2], 0);
         assert!(is_inside || !is_found, "{q:?} {cross_sections:?}");
         assert!(is_found || plainly.is_none(), "{q:?} {cross_sections:?}");
@@ -35,11 +33,10 @@ fn what_is_found_is_in_the_corridor() {
         across += u32::from(is_found && plainly.is_none());
         folded += u32::from(is_inside && !is_found);
     }
-    assert!(found > 20_000 && across > 2_000 && folded > 20, "{found} {across} {folded}");
+    assert!(found > 19_000 && across > 2_000 && folded > 20, "{found} {across} {folded}");
 }
 
-/// On the line through the boundaries of a cross section, and on a diagonal: on no boundary of the corridor. A place that is
-/// rounded may be on either side.
+/// On the line through the boundaries of a cross section, and on a diagonal: on no boundary of the corridor.
 #[test]
 fn what_is_on_a_side_of_two_triangles_is_found() {
     let cross_sections: [CrossSection; 3] = core::array::from_fn(|i| {
@@ -49,12 +46,11 @@ fn what_is_on_a_side_of_two_triangles_is_found() {
     let route = Route { closed: false, cross_sections: &cross_sections };
     let route = IndexedRoute::new(&route, None);
     for inside in [[4.0, 1.0], [4.0, -1.75], [2.0, 0.0], [6.0, 0.0], [1.0, 1.0]] {
-        for error in [0.0, 1e-9] {
-            let [x, y] = inside.map(|it| Real::new(it).widened(error));
-            assert!(route.between(Vector { x, y }).is_some(), "{inside:?} {error}");
-        }
+        assert!(route.between(inside).is_some(), "{inside:?}");
     }
-    for outside in [[2.0, 2.0_f64.next_up()], [-0.25, 0.0], [8.25, 0.0], [4.0, 2.25]] {
-        assert!(route.between(Vector::new(outside[0], outside[1])).is_none(), "{outside:?}");
+    for outside in
+        [[2.0, 2.0_f64.next_up()], [2.0, 2.0 - 1e-7], [-0.25, 0.0], [8.25, 0.0], [4.0, 2.25]]
+    {
+        assert!(route.between(outside).is_none(), "{outside:?}");
     }
 }
