@@ -111,6 +111,7 @@ fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     map.failure(scene)
         .or_else(|| in_force.find_map(|(_, failure)| failure()))
         .or_else(|| reach::ambiguous_failure(scene, trajectory))
+        .or_else(|| reach::ambiguous_end_failure(scene, trajectory))
 }
 
 /// H-04, where stage iv did not run, and H-14 stand behind stage iv.

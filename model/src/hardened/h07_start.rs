@@ -28,7 +28,8 @@ fn direction_failure(scene: &Scene, map: &OnMap) -> Option<Witness> {
     })
 }
 
-/// heading . segment >= 0 for at least one nearest segment of the reference path.
+/// heading . g >= 0 for at least one nearest segment g of the reference path; strictly for each of them, and at least
+/// 10^-14 (abs(g_x) + abs(g_y)).
 fn heading_failure(
     scene: &Scene,
     point: &Point,
@@ -37,13 +38,16 @@ fn heading_failure(
 ) -> Option<Witness> {
     let (zero, reach) = (Real::zero(), scene.reads.nearly(&place.distance));
     // A closing segment of length 0 has no direction and is not asked.
-    let along: Vec<Real> = (path.iter().zip(&place.distances))
+    let along: Vec<[Real; 2]> = (path.iter().zip(&place.distances))
         .map(|([a, b], distance)| (b - a, distance))
         .filter(|(segment, distance)| **distance <= reach && segment.squared() > zero)
-        .map(|(segment, _)| point.pose.direction.dot(&segment))
+        .map(|(g, _)| {
+            let least = Real::from_double(1e-14) * (g.x.abs() + g.y.abs());
+            [point.pose.direction.dot(&g), scene.reads.m_at_least(least)]
+        })
         .collect();
-    let passes = scene.reads.some(&along, |along| scene.reads.at_least(along, &zero));
-    Witness::unless(passes, Rule::Direction, &along[0], &zero)
+    let passes = scene.reads.some(&along, |[along, least]| along >= least);
+    Witness::unless(passes, Rule::Direction, &along[0][0], &zero)
 }
 
 /// The trajectory starts now and here.

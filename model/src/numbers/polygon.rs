@@ -22,12 +22,16 @@ pub fn is_in_union(reads: &Comparisons, triangles: &[Triangle], point: &Vector) 
 }
 
 /// The point lies in the union of the triangles, each of which has a side in common with the next, in a
-/// closed strip the last with the first. Strictly, all of its square lies in one of them, or in two
-/// neighbours and on the inner side of each of their outer sides; laxly, some point of the square in one.
+/// closed strip the last with the first. Strictly, all of its square, of half side delta or 10^-5 m, the greater, lies
+/// in one of them, or in two neighbours and on the inner side of each of their outer sides; laxly, some point of the
+/// square of half side delta in one.
 pub fn is_in_strip(reads: &Comparisons, strip: &[Triangle], closed: bool, point: &Vector) -> bool {
     match reads.reading {
         Reading::Exact | Reading::Lax => is_in_union(reads, strip, point),
-        Reading::Strict => strip_contains(strip, closed, &square(point, &reads.delta)),
+        Reading::Strict => {
+            let half_side = reads.m_at_least(Real::from_double(1e-5));
+            strip_contains(strip, closed, &square(point, &half_side))
+        }
     }
 }
 

@@ -89,6 +89,11 @@ impl Comparisons {
         b + &self.m
     }
 
+    /// m, strictly at least `least`.
+    pub fn m_at_least(&self, least: Real) -> Real {
+        if self.is_strict() { least.max(self.m.clone()) } else { self.m.clone() }
+    }
+
     /// The largest number that may be the least one: exactly that, else the greater of delta and 10^-5 more.
     pub fn nearly(&self, least: &Real) -> Real {
         match self.reading {

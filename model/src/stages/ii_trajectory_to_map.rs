@@ -6,6 +6,7 @@
 use crate::input::scene::{Point, Route, Scene};
 use crate::numbers::polygon::{Triangle, is_in_strip, is_in_union};
 use crate::numbers::polyline::{Beside, Segment, beside};
+use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
@@ -35,12 +36,13 @@ impl<'a> OnMap<'a> {
         Self { trajectory, path, places, corridor }
     }
 
-    /// The first point that is farther than theta_map from the path and outside the corridor.
+    /// The first point that is farther than theta_map - m from the path and outside the corridor; strictly m is at least
+    /// 10^-5 m.
     pub fn failure(&self, scene: &Scene) -> Option<Witness> {
         let theta_map = &scene.parameters.theta_map;
+        let most = theta_map - scene.reads.m_at_least(Real::from_double(1e-5));
         self.places.iter().enumerate().find_map(|(i, place)| {
-            let passes =
-                scene.reads.at_most(&place.distance, theta_map) || self.is_inside(scene, i);
+            let passes = place.distance <= most || self.is_inside(scene, i);
             let witness = Witness::unless(passes, Rule::ThetaMap, &place.distance, theta_map)?;
             Some(Witness { segment: Some(place.nearest), ..witness.at_point(i) })
         })

@@ -40,6 +40,11 @@ pub fn two_points(cycle: &mut Cycle, millis: i64, [x, y]: [f64; 2]) {
 /// more than the margin, and farther with a larger one. The interval filter in front of the exact
 /// arithmetic changes no report of them.
 pub fn margins_move(cases: &[Near]) {
+    margins_move_strictly(cases, 1e-6);
+}
+
+/// The same; strictly the margin is at least `least`.
+pub fn margins_move_strictly(cases: &[Near], least: f64) {
     for (name, configuration, profile, with) in cases {
         let at = |offset: f64, delta: f64| {
             let mut cycle = base(*profile, *configuration);
@@ -47,11 +52,11 @@ pub fn margins_move(cases: &[Near]) {
             cycle.parameters.delta = delta;
             safe(&cycle)
         };
-        assert_eq!(at(-3e-6, 1e-6), YES, "{name}: safe by three margins");
-        assert_eq!(at(-0.5e-6, 1e-6), NEAR_SAFE, "{name}: safe by half a margin");
+        assert_eq!(at(-3.0 * least, 1e-6), YES, "{name}: safe by three margins");
+        assert_eq!(at(-0.5 * least, 1e-6), NEAR_SAFE, "{name}: safe by half a margin");
         assert_eq!(at(0.5e-6, 1e-6), NEAR_UNSAFE, "{name}: unsafe by half a margin");
         assert_eq!(at(3e-6, 1e-6), NO, "{name}: unsafe by three margins");
-        assert_eq!(at(-3e-6, 1e-5), NEAR_SAFE, "{name}: a larger delta");
+        assert_eq!(at(-3.0 * least, 10.0 * least), NEAR_SAFE, "{name}: a larger delta");
         assert_eq!(at(3e-6, 1e-5), NEAR_UNSAFE, "{name}: a larger delta");
         for offset in [-1e-6, 0.0, 1e-6] {
             let mut cycle = base(*profile, *configuration);

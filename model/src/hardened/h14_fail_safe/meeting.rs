@@ -57,14 +57,10 @@ pub fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
 /// The margin of half the CAV's length and width at a place, m: strictly at least 10^-8 m + 10^-12 D, D being
 /// abs(x) + abs(y) of c - p, plus abs(w) (60 s + H(w)).
 fn margin(scene: &Scene, motion: &Motion) -> Real {
-    let m = scene.reads.raised(&Real::zero());
-    if !scene.reads.is_strict() {
-        return m;
-    }
     let Vector { x, y } = &now(motion).frame.origin - &scene.ego.position;
     let goes = &motion.speed * (Real::from_integer(60) + h(scene, motion));
     let d = x.abs() + y.abs() + goes;
-    m.max(Real::from_double(1e-8) + Real::from_double(1e-12) * d)
+    scene.reads.m_at_least(Real::from_double(1e-8) + Real::from_double(1e-12) * d)
 }
 
 /// abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
@@ -150,8 +146,7 @@ pub struct BesideRoute {
     b: Real,
     /// The rectangle of the CAV at each place.
     cavs: Vec<Rectangle>,
-    /// No c_k lies beyond an end of an open route, and the path bends as the route does. Strictly its end at s_stop is
-    /// certain, too.
+    /// No c_k lies beyond an end of an open route, and the path bends as the route does.
     is_along: bool,
     /// The route bends with R = 300 m, for who goes the CAV's way.
     bends_little: bool,
@@ -167,11 +162,9 @@ impl BesideRoute {
         reference_path.retain(|[from, to]| from != to);
         let places: Vec<Place> = places(scene, trajectory).collect();
         let [a, b] = a_and_b(scene, &reference_path, &places, &widening(scene, trajectory));
-        let is_along = places.iter().all(|Place { pose, progress, piece, .. }| {
+        let is_along = places.iter().all(|Place { pose, progress, .. }| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, pose).frame;
-            is_within_ends(scene, &reference_path, &c_k)
-                && bends(scene, &h_k, progress)
-                && piece.as_ref().is_none_or(|(u, end)| ends_surely(scene, u, end))
+            is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, progress)
         });
         let cavs = places.iter().map(|place| wider(scene, trajectory, &place.pose)).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
@@ -218,19 +211,9 @@ impl BesideRoute {
     }
 }
 
-/// M, the margin of who keeps beside: strictly the greater of m and 0.0001, else m.
-fn big_m(scene: &Scene) -> Real {
-    let m = scene.reads.raised(&Real::zero());
-    if scene.reads.is_strict() { m.max(Real::from_double(0.0001)) } else { m }
-}
-
-/// Strictly a piece that ends at a progress above s_stop - M has u . h > M (abs(u_x) + abs(u_y)): a path across h has no
-/// certain end at s_stop.
-fn ends_surely(scene: &Scene, u: &Vector, end: &Real) -> bool {
-    let m = big_m(scene);
-    !scene.reads.is_strict()
-        || *end <= Driving::of(scene).s_stop() - &m
-        || u.dot(&scene.ego.heading) > m * (u.x.abs() + u.y.abs())
+/// M, the margin of who keeps beside and of where the path ends: strictly the greater of m and 0.0001, else m.
+pub fn big_m(scene: &Scene) -> Real {
+    scene.reads.m_at_least(Real::from_double(0.0001))
 }
 
 /// A and B: the least D_k - E_k and the greatest D_k + E_k of all places, m, of several E_k with each.

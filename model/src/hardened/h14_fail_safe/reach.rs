@@ -1,6 +1,7 @@
 //! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, the path is not
 //! too long, and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
 
+use crate::hardened::h14_fail_safe::meeting::big_m;
 use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
 };
@@ -81,5 +82,20 @@ pub fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness>
         let (f, least) = (ahead(scene, &point.pose.origin), least_ahead());
         let is_clear = (&f - &least).abs() > scene.reads.delta;
         Witness::unless(is_clear, Rule::Ambiguous, &f, &least).map(|witness| witness.at_point(i))
+    })
+}
+
+/// `spec/4-arithmetic.md#strict-and-lax`: a piece that ends at a progress above s_stop - M has not
+/// u . h > M (abs(u_x) + abs(u_y)), so that the strict reading cannot say where the path reaches s_stop.
+pub fn ambiguous_end_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    if !scene.profile.has(HardenedRule::H14) || !scene.reads.is_strict() {
+        return None;
+    }
+    let (m, s_stop) = (big_m(scene), Driving::of(scene).s_stop());
+    places(scene, trajectory).enumerate().find_map(|(k, place)| {
+        let (u, _) = place.piece.filter(|(_, end)| *end > &s_stop - &m)?;
+        let (along, least) = (u.dot(&scene.ego.heading), &m * (u.x.abs() + u.y.abs()));
+        let failure = Witness::unless(along > least, Rule::Ambiguous, &along, &least)?;
+        Some(failure.at_point(trajectory.len() + k))
     })
 }

@@ -195,37 +195,6 @@ fn who_keeps_beside_is_not_beyond_an_end() {
     );
 }
 
-/// Strictly a piece with a place that ends at a progress above s_stop - M has u . h > M (abs(u_x) + abs(u_y)).
-/// MARGIN-18.
-#[test]
-fn the_path_is_not_across_at_its_end() {
-    // s_stop is 10.75 m: the piece from 10.75 m - `before` on leads 1/4 m aside, and by `ahead` ahead.
-    for side in [0.25, -0.25] {
-        let with = |before: f64, ahead: f64| {
-            let mut cycle = beside(-10.0, 4.0, 8.0, 0.0);
-            let points = points(&mut cycle);
-            points[10].x = 10.75 - before;
-            points[11].x = points[10].x + ahead;
-            points.iter_mut().skip(11).for_each(|point| point.y = side);
-            keeps_beside(&cycle)
-        };
-        assert_eq!([1.1e-4, 9e-5, 0.0].map(|it| with(it, 0.0)), [YES, NEAR_SAFE, NEAR_SAFE]);
-        assert_eq!([2e-5, 3e-5].map(|it| with(1e-5, it)), [NEAR_SAFE, YES]);
-        // Strictly it has places up to s_stop + m.
-        assert_eq!([-0.5e-6, -2e-6].map(|it| with(it, 0.0)), [NEAR_SAFE, YES]);
-    }
-    // s_stop is 28.75 m, where a path of any heading bends: the last node looks aside.
-    let turned = |before: f64| {
-        let mut cycle = beside(-10.0, -12.0, 8.0, 0.0);
-        cycle.ego.speed = 16.0;
-        let points = points(&mut cycle);
-        points.truncate(30);
-        (points[29].x, points[29].cos, points[29].sin) = (28.75 - before, 0.0, 1.0);
-        keeps_beside(&cycle)
-    };
-    assert_eq!([1.1e-4, 9e-5].map(turned), [YES, NEAR_SAFE]);
-}
-
 /// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
 /// H-14.43.

@@ -2,6 +2,7 @@
 
 use mufasa_model::cycle::check;
 use mufasa_model::hardened::h14_fail_safe::path::{Place, places};
+use mufasa_model::hardened::h14_fail_safe::reach::ambiguous_end_failure;
 use mufasa_model::hardened::h14_fail_safe::times::Driving;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::input::profile::HardenedRule;
@@ -294,4 +295,66 @@ fn a_point_at_an_eighth_of_a_metre_is_ambiguous() {
     let strict = check(&aside, Reading::Strict).expect("valid");
     let expected = |it: &Outcome| matches!(it, Outcome::Failed(it) if it.rule == Rule::Reach);
     assert!(expected(&strict.stages[Stage::Ii as usize]), "reach comes first");
+}
+
+/// Strictly a piece with a place that ends at a progress above s_stop - M has u . h > M (abs(u_x) + abs(u_y)); this is
+/// asked after MARGIN-04, and only with H-14.
+/// MARGIN-19.
+#[test]
+fn the_path_is_not_across_at_its_end() {
+    let passes = |cycle: &Cycle| {
+        [Reading::Strict, Reading::Exact, Reading::Lax].map(|reading| {
+            let scene = Scene::new(cycle, reading);
+            let trajectory = scene.trajectory.as_ref().expect("it is current");
+            ambiguous_end_failure(&scene, trajectory).is_none()
+        })
+    };
+    // s_stop is 10.75 m: the piece from 10.75 m - `before` on leads 1/4 m aside, and by `ahead` ahead.
+    let across = |before: f64, ahead: f64, side: f64| {
+        let mut cycle = base(HARDENED.without(HardenedRule::H11), PlanRemote);
+        (cycle.ego.speed, cycle.parameters.tau, cycle.parameters.a_max) = (8.0, 0.5, 4.0);
+        let points = points(&mut cycle);
+        points[10].x = 10.75 - before;
+        points[11].x = points[10].x + ahead;
+        points.iter_mut().skip(11).for_each(|point| point.y = side);
+        cycle
+    };
+    for side in [0.25, -0.25] {
+        let with = |before: f64, ahead: f64| passes(&across(before, ahead, side));
+        assert_eq!([1.1e-4, 9e-5, 0.0].map(|it| with(it, 0.0)), [YES, NEAR_SAFE, NEAR_SAFE]);
+        assert_eq!([2e-5, 3e-5].map(|it| with(1e-5, it)), [NEAR_SAFE, YES]);
+        // Strictly it has places up to s_stop + m.
+        assert_eq!([-0.5e-6, -2e-6].map(|it| with(it, 0.0)), [NEAR_SAFE, YES]);
+    }
+    // s_stop is 28.75 m: the last node looks aside.
+    let turned = |before: f64| {
+        let mut cycle = across(0.0, 0.25, 0.0);
+        cycle.ego.speed = 16.0;
+        let points = points(&mut cycle);
+        points.truncate(30);
+        (points[29].x, points[29].cos, points[29].sin) = (28.75 - before, 0.0, 1.0);
+        passes(&cycle)
+    };
+    assert_eq!([1.1e-4, 9e-5].map(turned), [YES, NEAR_SAFE]);
+    // A delta that is greater than 0.0001 is M.
+    let mut wide = across(9e-3, 0.0, 0.25);
+    assert_eq!(passes(&wide), YES);
+    wide.parameters.delta = 1e-2;
+    assert_eq!(passes(&wide), NEAR_SAFE);
+    // In a cycle: behind p come nine pieces of four places, one of seven, and that aside.
+    let mut cycle = across(1e-5, 0.0, 0.25);
+    let strict = |cycle: &Cycle| {
+        let report = check(cycle, Reading::Strict).expect("valid");
+        match &report.stages[Stage::Ii as usize] {
+            Outcome::Failed(it) => Some((it.rule, it.point?)),
+            _ => None,
+        }
+    };
+    assert_eq!(safe(&cycle), NEAR_SAFE);
+    assert_eq!(strict(&cycle), Some((Rule::Ambiguous, 51 + 44)));
+    cycle.profile = cycle.profile.without(HardenedRule::H14);
+    assert_eq!(strict(&cycle), None);
+    cycle.profile = HARDENED.without(HardenedRule::H11);
+    points(&mut cycle)[0].x = 0.125;
+    assert_eq!(strict(&cycle), Some((Rule::Ambiguous, 0)));
 }
