@@ -330,7 +330,7 @@ impl Piece {
     /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18).
     pub(crate) fn has_certain_end(&self) -> bool {
         let k = self.n.max(self.count().saturating_sub(1));
-        if self.is_over && self.count() == 1 || self.progress(k).certainly_below(self.s_stop) {
+        if self.progress(k).certainly_below(self.s_stop) || self.is_over && self.count() == 1 {
             return true;
         }
         let [x, y] = [self.u.x, self.u.y].map(|it| it.value().abs());
