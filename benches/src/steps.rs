@@ -12,7 +12,7 @@ use mufasa::input::profile::Profile;
 use mufasa::report::{Outcome, Rule, Stage};
 
 /// Their names, and what is run: a stage, or the checks of the input.
-pub const INPUTS: [(&str, Option<Stage>); 23] = [
+pub const INPUTS: [(&str, Option<Stage>); 24] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -27,6 +27,7 @@ pub const INPUTS: [(&str, Option<Stage>); 23] = [
     ("along-route", Some(Stage::Ii)),
     ("on-a-line", Some(Stage::Ii)),
     ("at-rest", Some(Stage::Ii)),
+    ("edge", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
     ("detections", Some(Stage::Iv)),
     ("moving", Some(Stage::Iv)),
@@ -151,6 +152,7 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
             let tracks = Some(tracks(&oncoming));
             Cycle { tracks, detections: Some(list(&[])), ..fail_safe }
         }
+        "edge" => plan(&along[..1]),
         "far-behind" => Cycle {
             ego: Ego { speed: 2.0, ..base.ego },
             tracks: Some(tracks(&behind)),
@@ -285,6 +287,7 @@ fn road(input: &str, size: u32) -> Vec<CrossSection> {
         "along-route" => straight(8 * size),
         "far-behind" => places(64 * size, 0.1).map(|x| upright(x - 400.0)).collect(),
         "on-a-line" => aside(8 * size),
+        "edge" => slivers(8 * size),
         input => folded(if input.ends_with("route") { 8 * size } else { 4 }),
     }
 }
@@ -319,6 +322,15 @@ fn aside(count: u32) -> Vec<CrossSection> {
         CrossSection { x: 40.0 + 1e-3 * i, y: y + 0.05, left: [-5.0, y], right: [90.0, y] }
     };
     places(count, 1.0).map(cross_section).collect()
+}
+
+/// Parts thinner than plain doubles tell, all along the way, which is a nanometre inside the edge of the last one.
+fn slivers(count: u32) -> Vec<CrossSection> {
+    let sliver =
+        |y: f64| CrossSection { x: y * 1e9, y: 0.0, left: [-5.0, y], right: [90.0, y - 3e-9] };
+    let last = |x: f64| CrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -1e-9] };
+    let ends = [CrossSection { x: -100.0, ..last(-10.0) }, last(300.0)];
+    places(count, 2e-12).map(|y| sliver(y - 3e-7)).chain(ends).collect()
 }
 
 /// A bit for each cell of the grid that no disk of the standing CAV touches.
