@@ -1,4 +1,4 @@
-//! The worst inputs that are known, of the sizes that a vehicle limits its lists to, and of what they are made.
+//! Of what the worst inputs that are known are made.
 //! An attacker chooses tracks and trajectory; the vehicle, the route, the grid and what is detected are the CAV's
 //! own, and stage v is only as slow as this for a vehicle and a grid like these.
 
@@ -8,75 +8,11 @@ use mufasa::input::cycle::{
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
-
-use crate::contestant::Contestant;
 
 /// Time of every cycle, ns.
 pub const NOW_NS: i64 = 1_000_000_000;
 const CELLS: i64 = 4096;
-
-/// The same kinds of input in the sizes of docs/configuration.md, which are those of
-/// `mufasa_monitor_settings_default`, hardened: no station can send more.
-///
-/// # Panics
-/// Never: sizes fit their types.
-pub fn vehicle(row: &mut dyn FnMut(Stage, &str, &Cycle<'_>)) {
-    const TRACKS: u32 = 128;
-    const POINTS: usize = 128;
-    const DETECTIONS: u32 = 256;
-    let cross_sections = road(640);
-    let grid = vec![0; 4096 * 4096 / 8];
-    let whole = base(&cross_sections, &grid);
-    let work_limit = i64::from(TRACKS) * i64::from(TRACKS) * i64::from(DETECTIONS);
-    let parameters = Parameters { work_limit, ..whole.parameters };
-    let base = Cycle { profile: Profile::HARDENED, parameters, ..whole };
-
-    let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
-    let line: Vec<_> = places(DETECTIONS, 1.0).map(|x| detection(x, 0.0)).collect();
-    let crowd: Vec<_> = places(TRACKS, 0.001).zip(0..).map(|(y, id)| track(id, -1.0, y)).collect();
-    // With the threshold of assignments() nothing is settled early.
-    let parameters = Parameters { theta_tr: 0.2, ..parameters };
-    let lists = Cycle { tracks: Some(tracks(&crowd)), detections: Some(list(&line)), ..base };
-    let cycle = Cycle { parameters, ..lists };
-    row(Stage::I, "128 tracks a millimetre apart, 256 detections in a row across", &cycle);
-    let upon = timed(places(128, 0.1).map(|x| point(x, 0.0)).collect());
-    let cycle = Cycle { trajectory: Some(trajectory(&upon)), ..base };
-    row(Stage::Ii, "128 points on 640 cross sections of a road without width", &cycle);
-    let standing = timed(vec![point(0.0, 0.0); POINTS]);
-    let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
-    let touching = 0.5 * (base.ego.width + 1.8) + 1e-8;
-    let near: Vec<_> = (0..i64::from(TRACKS)).map(|id| track(id, 0.0, touching)).collect();
-    let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
-    row(Stage::Iii, "128 tracks 10 nm beside the CAV at 128 points", &cycle);
-    let far = [detection(0.0, 500.0)];
-    let cycle = Cycle { detections: Some(list(&far)), ..cycle };
-    row(Stage::Iv, "the same tracks in H-14, one detection far off", &cycle);
-    let beside = neighbours(&still, DETECTIONS);
-    let cycle = Cycle { detections: Some(list(&beside)), ..still };
-    row(Stage::Iv, "256 detections 10 nm beside the CAV at 128 points", &cycle);
-    // H-14 compares each with each at each point; beyond its limits it fails at once.
-    let before = earlier(&beside, 500);
-    let with = |count: usize| {
-        (list(&beside[..count]), [DetectionList { items: &beside[..count], ..before }])
-    };
-    let passes = |count: &usize| {
-        let (detections, history) = with(*count);
-        let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
-        Contestant::new(&cycle).stage(Stage::Iv)
-    };
-    let most = (1..=beside.len()).rev().find(passes).unwrap_or(1);
-    let (detections, history) = with(most);
-    let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
-    let name = format!(
-        "{most} of them, as many as its limits allow, with an earlier list like that (H-14)"
-    );
-    row(Stage::Iv, &name, &cycle);
-    let creeping = timed(places(128, 0.008).map(|x| point(x, 0.0)).collect());
-    let cycle = Cycle { trajectory: Some(trajectory(&creeping)), ..base };
-    row(Stage::V, "128 points on an empty grid of 4096 x 4096 cells of 1 cm", &cycle);
-}
 
 /// So many detections at the same place, 10 nm beside the CAV where it stands.
 pub fn neighbours(still: &Cycle<'_>, count: u32) -> Vec<Detection> {

@@ -9,18 +9,10 @@ use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::worst::{
-    self, base, detection, earlier, list, neighbours, point, road, timed, track, tracks, trajectory,
+    base, detection, earlier, list, neighbours, point, road, timed, track, tracks, trajectory,
 };
 
 fn main() {
-    if std::env::args().nth(1).as_deref() == Some("--vehicle") {
-        println!("| stage | input | hardened, ms |\n|---|---|---|");
-        return worst::vehicle(&mut |stage, input, cycle| {
-            let (ms, passed) = mean(&mut Contestant::new(cycle), stage);
-            let name = ["i", "ii", "iii", "iv", "v"][stage as usize];
-            println!("| {name} | {input} | {ms:.3}, {} |", if passed { "passes" } else { "fails" });
-        });
-    }
     println!("| stage | input | paper, ms | hardened, ms |\n|---|---|---|---|");
     let cross_sections = road(8192);
     let grid = vec![0; 4096 * 4096 / 8];

@@ -4,8 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Of each page with stamps the sources that its tables depend on.
-pub const SOURCES: [(&str, &str); 11] = [
-    ("docs/configuration.md", "impl/src benches/src"),
+pub const SOURCES: [(&str, &str); 10] = [
     ("docs/conformance.md", "model/src lab/conform/src examples/conformance"),
     // The other tests of props execute no code of a vehicle.
     ("docs/coverage.md", COVERED),
