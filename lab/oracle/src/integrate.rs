@@ -106,6 +106,7 @@ fn replay(
             sequence.last_session, seen.session
         )
     });
+    found.check_made(number, settings.profile, check_time_ns);
     let table = vec![StationRecord::FREE; stations];
     let mut lent = Lent { stations: table, ..bridge::lent(&settings) };
     let made = bridge::settings_to_impl(&settings).ok_or("a time is negative")?;

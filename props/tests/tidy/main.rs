@@ -194,7 +194,7 @@ fn the_readme_has_the_shares_of_availability() {
     let readme = tree.0["README.md"].split_whitespace().collect::<Vec<_>>().join(" ");
     let all = count("| from 0.8 s on | ", 3);
     assert!(readme.contains(&format!("Of {all} clean cycles")), "{all}");
-    for (tau, words) in [("0.1", "with tau 0.1 s"), ("0.25", "with 0.25 s")] {
+    for (tau, words) in [("0.1", "with 0.1 s"), ("0.25", "with tau 0.25 s")] {
         let share = 100.0 * count(&format!("| {tau} | "), 3) / all;
         assert!(readme.contains(&format!("{share:.1} % {words}")), "{share}");
     }

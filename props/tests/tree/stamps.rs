@@ -8,8 +8,8 @@ pub const SOURCES: [(&str, &str); 10] = [
     ("docs/conformance.md", "model/src lab/conform/src examples/conformance"),
     // The other tests of props execute no code of a vehicle.
     ("docs/coverage.md", COVERED),
-    ("docs/drives.md", "impl/src lab/drives/src lab/sim/src"),
-    ("docs/embedded.md", "impl/src capi/src benches/src"),
+    ("docs/drives.md", "impl/src model/src lab/drives/src lab/sim/src"),
+    ("docs/embedded.md", "impl/src capi/src benches/src benches/embedded vectors"),
     ("docs/evaluation.md", "impl/src lab/sim/src"),
     ("docs/exploration.md", EXPLORED),
     ("docs/link.md", "impl/src lab/link/src"),

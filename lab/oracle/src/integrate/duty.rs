@@ -1,5 +1,7 @@
 //! The duties of the integrator, and where a loop breaks them.
 
+use mufasa_model::input::profile::Profile;
+
 macro_rules! duties {
     ($($name:ident: $row:literal, $act:literal;)*) => {
         /// A row of `docs/safety-manual.md#duties-of-the-integrator`.
@@ -81,6 +83,14 @@ impl Findings {
             Some(before) => before.more += 1,
             None => self.0.push(Finding { duty, line, what: what(), more: 0 }),
         }
+    }
+
+    /// What the manual forbids and [`mufasa::monitor::Monitor::new`] accepts.
+    pub(super) fn check_made(&mut self, line: usize, profile: Profile, check_time_ns: u64) {
+        let is_hardened = profile == Profile::HARDENED;
+        self.check(line, Duty::Settings, is_hardened, || "the profile is not hardened".to_owned());
+        let ends = check_time_ns < i64::MAX.unsigned_abs();
+        self.check(line, Duty::CheckTime, ends, || "a check may take any time".to_owned());
     }
 
     /// The duties that are broken, with the first line of each.

@@ -168,6 +168,8 @@ fn milliseconds_for_nanoseconds_and_another_clock_are_noticed() {
         all(it, &|it| it["lead"]["gap"] = json!(it["lead"]["gap"].as_f64().expect("a lead") + 4.0));
     });
     breaks(Duty::Settings, 0, |it| it[0]["made"]["record"]["period_ns"] = json!(100));
+    breaks(Duty::Settings, 0, |it| it[0]["made"]["record"]["profile"] = json!("paper"));
+    breaks(Duty::CheckTime, 0, |it| it[0]["made"]["check_time_ns"] = json!(i64::MAX));
 }
 
 #[test]
