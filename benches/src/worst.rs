@@ -1,6 +1,5 @@
-//! Of what the worst inputs that are known are made.
-//! An attacker chooses tracks and trajectory; the vehicle, the route, the grid and what is detected are the CAV's
-//! own, and stage v is only as slow as this for a vehicle and a grid like these.
+//! What adversarial inputs are made of. An attacker chooses tracks and trajectory; the vehicle, the route, the grid and
+//! what is detected are the CAV's own.
 
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
