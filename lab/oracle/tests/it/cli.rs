@@ -180,8 +180,8 @@ fn what_is_written_without_a_named_folder_is_said_first() {
     for command in ["vectors", "man", "schemas"] {
         first(&[command], 0, command);
         assert!(folder.join(command).is_dir());
-        assert_eq!(said(&folder, &[command, "--out", "there"]).err, "");
     }
+    assert_eq!(said(&folder, &["man", "--out", "there"]).err, "");
 }
 
 #[test]
