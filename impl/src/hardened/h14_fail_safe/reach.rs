@@ -16,9 +16,9 @@ const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
 /// A car is taken to turn on no smaller circle, m: its radius.
-const CIRCLE: f64 = 3.0;
+pub(super) const CIRCLE: f64 = 3.0;
 /// Half of what tyres hold, m/s^2.
-const HALF_TYRES: f64 = 0.5 * TYRES;
+pub(super) const HALF_TYRES: f64 = 0.5 * TYRES;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
 /// without that stage ii of W1 and W2 takes a third more instructions.
