@@ -2,7 +2,7 @@
 //! needs more than 10^10 comparisons is no input of the model.
 
 use crate::hardened::detection_history;
-use crate::hardened::h14_fail_safe::meeting::widening;
+use crate::hardened::h14_fail_safe::widening::widening;
 use crate::hardened::h14_fail_safe::{self, path};
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};

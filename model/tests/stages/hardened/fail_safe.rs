@@ -9,6 +9,7 @@ mod reach;
 mod road;
 mod route_bends;
 mod times;
+mod widening;
 
 use mufasa_model::input::cycle::{Cycle, Track};
 use mufasa_model::input::scene::Scene;

@@ -17,19 +17,29 @@ const NEAR: &[Near] = &[
         let sin = 0.17 + e;
         (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), -sin);
     }),
-    ("offset to the right <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
+    ("widening to the right <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
         c.ego.y = -0.5 - e;
     }),
-    ("offset to the left <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
-        (c.ego.x, c.ego.y) = (-1.0, 0.25 + e);
+    ("widening to the left <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
+        (c.ego.x, c.ego.y) = (0.5, 0.25 + e);
         c.parameters.lateral_tolerance = 0.25;
     }),
+    (
+        "widening of a first point ahead <= lateral_tolerance - m",
+        PlanRemote,
+        Profile::HARDENED,
+        |c, e| {
+            // On a circle of 100 m / 11.5 it is 0.0575 m aside.
+            (c.ego.x, c.ego.y) = (-1.0, 0.3075 + e);
+            c.parameters.lateral_tolerance = 0.25;
+        },
+    ),
 ];
 
 #[test]
 fn margins_move_each_bound_of_the_start() {
     let [position, heading, offset] = [Rule::StartPosition, Rule::StartHeading, Rule::StartOffset];
-    margins_move_rules(NEAR, &[position, heading, heading, offset, offset]);
+    margins_move_rules(NEAR, &[position, heading, heading, offset, offset, offset]);
 }
 
 /// The cross product alone would take the opposite for the same.

@@ -1,0 +1,201 @@
+//! The widening of `spec/hardened/H-14.md#requirements-the-cav`, and what asks it.
+
+use mufasa_model::hardened::h14_fail_safe::widening::widening;
+use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::numbers::real::Real;
+use mufasa_model::report::{Outcome, Rule, Stage};
+use mufasa_model::services::configuration::Configuration::PlanRemote;
+
+use super::following::{READINGS, beside, keeps_beside, moves_by_m};
+use super::scene;
+use crate::base::*;
+use crate::near::{NEAR_SAFE, NO, YES, points, safe};
+
+/// The CAV at the origin at `v` m/s, s_b(v) = v^2/16, looks along x; the trajectory leads through these points.
+fn cycle(v: f64, places: &[[f64; 2]]) -> Cycle {
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
+    cycle.ego.speed = v;
+    let point = |(i, [x, y]): (i64, &[f64; 2])| at_time(i * 100_000_000, *x, *y);
+    let points = (0..).zip(places).map(point).collect();
+    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+    cycle
+}
+
+/// The widening in the readings strict, exact, lax.
+fn widenings(cycle: &Cycle) -> [Real; 3] {
+    READINGS.map(|reading| {
+        let scene = scene(cycle, reading);
+        widening(&scene, scene.trajectory.as_ref().expect("it is current"))
+    })
+}
+
+fn share(n: i128, of: i128) -> Real {
+    Real::from_integer(n) / Real::from_integer(of)
+}
+
+/// The widening of a trajectory, the same in all readings; to the other side and turned it is the same.
+fn is_wider_by(v: f64, places: &[[f64; 2]], expected: &Real) {
+    let mirrored: Vec<[f64; 2]> = places.iter().map(|[x, y]| [*x, -y]).collect();
+    let mut turned = cycle(v, &places.iter().map(|[x, y]| [-y, *x]).collect::<Vec<_>>());
+    (turned.ego.cos, turned.ego.sin) = (0.0, 1.0);
+    for cycle in [cycle(v, places), cycle(v, &mirrored), turned] {
+        for found in widenings(&cycle) {
+            assert_eq!(&found, expected, "{v} {places:?}");
+        }
+    }
+}
+
+/// A CAV 0.45 m beside a straight plan that begins 2.65 m behind it, the first heading turned by 0.168.
+fn beside_its_plan() -> Cycle {
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
+    (cycle.ego.y, cycle.parameters.start_tolerance) = (0.45, 3.0);
+    let points = points(&mut cycle);
+    points.iter_mut().for_each(|point| point.x -= 2.65);
+    (points[0].cos, points[0].sin) = ((1.0 - 0.168f64 * 0.168).sqrt(), 0.168);
+    cycle
+}
+
+/// A car 0.2 m before the CAV overlaps its front by 0.4 m, and is 5 cm beside the plan.
+/// H-14.26, H-14.64, H-14.65, H-07.5.
+#[test]
+fn a_turned_first_heading_hides_nothing() {
+    let mut cycle = beside_its_plan();
+    assert_eq!(widenings(&cycle), [0.45; 3].map(Real::from_double));
+    assert_eq!(safe(&cycle), YES);
+    (cycle.tracks, cycle.detections) = (None, detections(vec![detection(4.2, 2.05)]));
+    assert_eq!(rule(&cycle, Stage::Iv), Some(Rule::FailSafe));
+    cycle.parameters.lateral_tolerance = 0.449;
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartOffset));
+}
+
+/// Between y and z on the line through both; points before y say nothing.
+/// H-14.65.
+#[test]
+fn the_trajectory_passes_between_two_points() {
+    // On the line from (-1, 0.25) to (3, 1.25) it is 0.5 m aside at p; R is 3 m.
+    is_wider_by(5.0, &[[-1.0, 0.25], [3.0, 1.25]], &share(1, 2));
+    // From one side to the other, and z half a metre aside at f = 0.5 m.
+    is_wider_by(5.0, &[[-0.5, -0.5], [0.5, 0.5]], &share(11, 24));
+    // In the form of an S: its first point is on the line through p, and so is what comes after it.
+    let s = [[-2.0, 0.0], [-1.5, -0.5], [-1.0, 0.25], [-0.25, 0.5], [0.5, 0.5], [2.0, 0.0]];
+    is_wider_by(5.0, &s, &share(1, 2));
+    let far = [[-2.0, 3.0], [-1.0, -3.0], [-0.5, 0.0], [1.0, 0.0], [2.0, 0.0]];
+    is_wider_by(5.0, &far, &Real::zero());
+}
+
+/// abs(a_y) from f_y = 0 on.
+/// H-14.65.
+#[test]
+fn a_point_that_is_hardly_ahead_is_where_it_passes() {
+    let z = [1.0, 0.0];
+    is_wider_by(5.0, &[[-0.0625, 0.5], z], &share(8, 17));
+    for f_y in [0.0, 0.0625, 0.125] {
+        is_wider_by(5.0, &[[f_y, 0.5], z], &share(1, 2));
+        is_wider_by(5.0, &[[-2.0, 0.0], [f_y, 0.5], z], &share(1, 2));
+    }
+}
+
+/// H-14.65.
+#[test]
+fn without_a_node_the_last_point_is_where_it_passes() {
+    is_wider_by(5.0, &[[-1.0, 0.25]], &share(1, 4));
+    is_wider_by(5.0, &[[-1.0, 2.0], [0.0, 1.0], [0.125, 0.5]], &share(1, 2));
+    is_wider_by(0.0, &[[0.0, 0.5], [-1.0, 0.0]], &Real::zero());
+}
+
+/// Where z is the first point, and at each point behind it: abs(a_x) - f_x^2 / (2 R).
+/// H-14.64.
+#[test]
+fn what_a_circle_leads_to_is_no_widening() {
+    is_wider_by(5.0, &[[0.5, 0.5]], &share(11, 24));
+    is_wider_by(5.0, &[[1.0, 0.125]], &Real::zero());
+    // R is 3 m for a CAV that stands; z counts, though s_b(0) = 0.
+    is_wider_by(0.0, &[[0.75, 0.5]], &share(13, 32));
+    is_wider_by(0.0, &[[0.75, 0.5], [1.0, 2.0]], &share(13, 32));
+    is_wider_by(11.5, &[[1.0, 0.5]], &share(21, 46));
+    is_wider_by(23.0, &[[1.0, 0.5]], &share(45, 92));
+    // It goes aside at once: the greatest of all, not the first or the last.
+    let aside = [[-1.0, 0.0], [0.5, 0.0], [1.0, 0.5], [1.25, 1.0], [1.5, 1.0]];
+    is_wider_by(5.0, &aside, &share(71, 96));
+    // What goes back is asked as if it were beside p.
+    is_wider_by(5.0, &[[0.5, 0.0], [-1.0, 0.75], [1.0, 0.0]], &share(3, 4));
+    is_wider_by(0.0, &[[0.5, 0.0], [-1.0, 0.75], [1.0, 0.0]], &share(3, 4));
+}
+
+/// s_b(4) = 1 m: a point behind z counts where f_x < s_b(v) + m, z anywhere.
+/// H-14.64, MARGIN-01.
+#[test]
+fn points_from_s_b_on_do_not_count() {
+    let counts = |x: f64| {
+        let all = widenings(&cycle(4.0, &[[0.5, 0.0], [x, 0.5], [3.0, 0.0]]));
+        all.map(|it| it > Real::zero())
+    };
+    let [inside, outside] = [[true, true, false], [true, false, false]];
+    assert_eq!([1.0 - 2e-6, 1.0 - 0.5e-6].map(counts), [YES, inside]);
+    assert_eq!([1.0, 1.0 + 0.5e-6, 1.0 + 2e-6].map(counts), [outside, outside, NO]);
+    let [strict, exact, _] = widenings(&cycle(4.0, &[[0.5, 0.0], [1.0, 0.5]]));
+    assert_eq!([strict, exact], [share(1, 3), Real::zero()]);
+    is_wider_by(4.0, &[[1.0, 0.5]], &share(1, 3));
+    is_wider_by(4.0, &[[-1.0, 0.0], [2.0, 1.5]], &share(5, 6));
+}
+
+/// The witness is at the first point and compares the widening with lateral_tolerance.
+/// H-07.5.
+#[test]
+fn the_widening_is_at_most_lateral_tolerance() {
+    let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
+        Outcome::Failed(it) => {
+            Some((it.rule, it.point, it.compared.each_ref().map(ToString::to_string)))
+        }
+        _ => None,
+    };
+    let offset =
+        |compared: [&str; 2]| Some((Rule::StartOffset, Some(0), compared.map(ToString::to_string)));
+    let at = |y: f64| {
+        let mut cycle = base(Profile::HARDENED, PlanRemote);
+        cycle.ego.y = y;
+        cycle
+    };
+    for side in [1.0, -1.0] {
+        assert_eq!(safe(&at(side * 0.5)), NEAR_SAFE);
+        assert_eq!(found(&at(side * 0.5)), None);
+        assert_eq!(found(&at(side * 0.625)), offset(["0.625", "0.5"]));
+    }
+    // The trajectory begins ahead: 0.5 m more than on the circle.
+    let ahead = |y: f64| {
+        let mut cycle = cycle(4.0, &[[0.75, y], [1.5, y], [2.25, y]]);
+        cycle.parameters.delta = 1e-8;
+        cycle
+    };
+    assert_eq!([0.59375, 0.59374].map(|y| safe(&ahead(y))), [NEAR_SAFE, YES]);
+    assert_eq!(found(&ahead(0.71875)), offset(["0.625", "0.5"]));
+    // The first point is on the CAV; a later one turns aside.
+    let later = cycle(4.0, &[[0.0, 0.0], [0.25, 0.625], [0.5, 0.625], [1.0, 0.625]]);
+    assert_eq!(
+        found(&later).map(|(rule, point, _)| (rule, point)),
+        Some((Rule::StartOffset, Some(0)))
+    );
+}
+
+/// E_k is greater by it: 0.25 m of distance at p, half of both widths, and 0.25 m.
+/// H-14.42.
+#[test]
+fn who_keeps_beside_leaves_room_for_the_widening() {
+    moves_by_m("widening", |e| {
+        let mut cycle = beside(-10.0, 2.5 - e, 8.0, 0.0);
+        cycle.ego.y = 0.25;
+        keeps_beside(&cycle)
+    });
+}
+
+/// The longest trajectory, all of it at one point that intervals do not tell apart.
+#[test]
+fn the_longest_trajectory_has_a_widening() {
+    let mut long = cycle(5.0, &[[0.5, 0.5]]);
+    (long.ego.cos, long.ego.sin) = (0.6, 0.8);
+    let one = points(&mut long)[0].clone();
+    let short = widenings(&long);
+    let later = (0..1024).map(|i| TrajectoryPoint { t_ns: one.t_ns + i, ..one.clone() });
+    *points(&mut long) = later.collect();
+    assert_eq!(widenings(&long), short);
+}
