@@ -13,7 +13,7 @@ from functools import cached_property
 from beside import Beside
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach
-from stopping import Stop, a_tyre, between, cross, displacement, dot
+from stopping import Stop, a_tyre, cross, displacement, dot
 
 
 @dataclass
@@ -40,6 +40,34 @@ def parted(cycle):
     passed = list(itertools.takewhile(
         lambda point: ahead(*displacement(ego, point), ego) <= Fraction(1, 8), points))
     return passed, points[len(passed):]
+
+
+def widening(cycle):
+    """By how much the trajectory is farther aside than the CAV can be, where it passes the CAV and at
+    the points up to s_b. In fractions, as which points are ahead has no cautious side."""
+    ego, (passed, nodes) = cycle["ego"], parted(cycle)
+    v, a_b = Fraction(ego["speed"]), Fraction(cycle["parameters"]["a_b"])
+    radius, s_b = max(3, v**2 / Fraction(11.5)), v**2 / (2 * a_b)
+
+    def at(point):
+        """How far ahead a point is, and how far to the left."""
+        x, y = displacement(ego, point)
+        return ahead(x, y, ego), ahead(y, -x, ego)
+
+    def beyond(f, aside):
+        """A circle of that radius leads so far aside."""
+        return abs(aside) - max(f, 0)**2 / (2 * radius)
+
+    found = [Fraction(0)]
+    if passed:
+        f_y, a_y = at(passed[-1])
+        found = [abs(a_y)]
+        if nodes and f_y <= 0:
+            f_z, a_z = at(nodes[0])
+            found = [abs(a_y * f_z - a_z * f_y) / (f_z - f_y)]
+    ways = [at(point) for point in nodes]
+    found += [beyond(*way) for k, way in enumerate(ways) if k == 0 or way[0] < s_b]
+    return float(max(found))
 
 
 def pieces(cycle):
@@ -220,9 +248,8 @@ class FailSafe:
 
     @cached_property
     def a(self):
-        """How far beside the CAV the trajectory begins: it may join it anywhere."""
-        first = self.cycle["trajectory"]["points"][0]
-        return abs(between(first, self.ego, first)[1])
+        """By how much half the CAV's width is greater: the trajectory may join the CAV anywhere."""
+        return widening(self.cycle)
 
     def motions(self, seen, tracks):
         for track in tracks:
