@@ -5,7 +5,7 @@ use crate::hardened::h14_fail_safe::reach::{CIRCLE, HALF_TYRES};
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{larger, smaller};
+use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::stages::llcc::sweep::{minus, split};
 use crate::stages::llcc::vector;
@@ -19,20 +19,33 @@ const ROUGH: f64 = 1e-15;
 pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     let (ego, nodes) = (&cycle.ego, Nodes::new(cycle, points));
     let passes = passes(ego, nodes.others(points).last(), nodes.points.first());
-    //
-    let bend = smaller(0.5 / CIRCLE, HALF_TYRES / (ego.speed * ego.speed)) * (1.0 - ROUGH);
     // H-14.64
-    let until = Times::<f64>::new(cycle).s_b * (1.0 + ROUGH) + 1e-9;
-    let beyond = nodes.points.iter().enumerate().fold(0.0, |most, (index, point)| {
-        let [x, y] = minus([point.x, point.y], [ego.x, ego.y]);
-        let [f, aside] = split([ego.cos, ego.sin], [x, y]);
-        if index > 0 && f > until {
-            return most;
+    let (v, s_b) = (ego.speed, Times::<f64>::new(cycle).s_b);
+    let until = s_b * (1.0 + ROUGH) + 1e-9;
+    //
+    let bend = |f: f64| {
+        let u = larger(v - cycle.parameters.a_b * f / v, 0.5 * v);
+        // Where v is 0 this is no number, and the circle is taken.
+        let tyres = HALF_TYRES / (u * u);
+        if tyres < 0.5 / CIRCLE { tyres } else { 0.5 / CIRCLE }
+    };
+    let mut length = 0.0;
+    let mut from = ([0.0; 2], [ego.cos, ego.sin]);
+    let mut beyond = 0.0;
+    for (index, point) in nodes.points.iter().enumerate() {
+        let to = minus([point.x, point.y], [ego.x, ego.y]);
+        let [along, across] = split(from.1, minus(to, from.0)).map(f64::abs);
+        length += along + across;
+        // Lengths only grow.
+        if index > 0 && length > until {
+            break;
         }
-        let error = (x.abs() + y.abs()) * ROUGH;
-        let least = larger(f - error, 0.0);
-        larger(most, aside.abs() + error - least * least * bend)
-    });
+        from = (to, [point.cos, point.sin]);
+        let [f, aside] = split([ego.cos, ego.sin], to);
+        let error = (to[0].abs() + to[1].abs()) * ROUGH;
+        let f = larger(f - error, 0.0);
+        beyond = larger(beyond, aside.abs() + error - f * f * bend(f) * (1.0 - 8.0 * ROUGH));
+    }
     passes.max(Real::new(beyond * (1.0 + ROUGH)))
 }
 

@@ -33,11 +33,15 @@ fn neither_the_first_heading_nor_points_behind_hide_that_the_trajectory_is_besid
         assert!((0.45..0.45 + 1e-12).contains(&aside), "{aside}: {places:?}");
     }
     // On the way from y to z, and at points up to s_b(15) = 14.1 m that tyres do not come to.
+    let tyres = |f: f64| f * f * 5.75 / (15.0 - 8.0 * f / 15.0) / (15.0 - 8.0 * f / 15.0);
     for (speed, places, expected) in [
-        (15.0, &[[-1.0, 0.0], [3.0, 0.4]][..], 0.4 - 9.0 * 11.5 / 450.0),
+        (15.0, &[[-1.0, 0.0], [3.0, 0.4]][..], 0.4 - tyres(3.0)),
         (15.0, &[[-1.0, 0.4], [3.0, 0.0]], 0.3),
-        (15.0, &[[0.0, 0.0], [2.0, 0.0], [10.0, 3.0]], 3.0 - 100.0 * 11.5 / 450.0),
+        (15.0, &[[0.0, 0.0], [2.0, 0.0], [5.0, 3.0]], 3.0 - tyres(5.0)),
         (15.0, &[[0.0, 0.0], [14.0, 0.0], [14.1, 9.0]], 0.0),
+        // Farther ahead than s_b.
+        (8.0, &[[5.0, 5.0], [6.0, 9.0]], 5.0 - 25.0 / 6.0),
+        (80.0, &[[500.0, 999.0]], 999.0 - 250_000.0 * 5.75 / 1600.0),
         (0.0, &[[1.0, 0.5], [1.5, 2.0]], 0.5 - 1.0 / 6.0),
     ] {
         let aside = widened(speed, places, 0.0);
@@ -55,7 +59,14 @@ fn by_the_text(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
         [dx * cos + dy * sin, dx * sin - dy * cos]
     };
     let z = points.iter().position(|it| seen(it)[0].value() > 0.125);
-    let radius = v.squared().over(Real::new(11.5)).max(Real::new(3.0));
+    let least = Real::new(3.0);
+    let radius = |f: Real| {
+        if speed <= 0.0 {
+            return least;
+        }
+        let u = v - (Real::new(cycle.parameters.a_b) * f).over(v);
+        u.max(v * Real::new(0.5)).squared().over(Real::new(11.5)).max(least)
+    };
     let s_b = v.squared().over(Real::new(2.0 * cycle.parameters.a_b));
     let passes = match z {
         None => points.last().map_or(Real::ZERO, |it| seen(it)[1].abs()),
@@ -66,15 +77,24 @@ fn by_the_text(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
             if f_y.value() > 0.0 { a_y.abs() } else { between }
         }
     };
-    let nodes = z.map_or(&[][..], |z| &points[z..]).iter().enumerate();
-    nodes.fold(passes, |most, (index, it)| {
-        let [f, a] = seen(it);
-        if index > 0 && f.value() >= s_b.value() {
-            return most;
+    let mut most = passes;
+    let (mut length, mut node, mut heading) = (Real::ZERO, [Real::ZERO; 2], [cos, sin]);
+    for (index, it) in z.map_or(&[][..], |z| &points[z..]).iter().enumerate() {
+        let to = [Real::difference(it.x, x), Real::difference(it.y, y)];
+        let u = [to[0] - node[0], to[1] - node[1]];
+        let [along, across] =
+            [u[0] * heading[0] + u[1] * heading[1], u[0] * heading[1] - u[1] * heading[0]];
+        length = length + along.abs() + across.abs();
+        (node, heading) = (to, [it.cos, it.sin].map(Real::new));
+        if index > 0 && length.value() >= s_b.value() {
+            continue;
         }
-        let can = f.max(Real::ZERO).squared().over(radius + radius);
-        most.max(a.abs() - can)
-    })
+        let [f, a] = seen(it);
+        let f = f.max(Real::ZERO);
+        let can = f.squared().over(radius(f) + radius(f));
+        most = most.max(a.abs() - can);
+    }
+    most
 }
 
 #[test]
