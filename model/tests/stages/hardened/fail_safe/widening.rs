@@ -103,7 +103,7 @@ fn without_a_node_the_last_point_is_where_it_passes() {
     is_wider_by(0.0, &[[0.0, 0.5], [-1.0, 0.0]], &Real::zero());
 }
 
-/// Where z is the first point, and at each point behind it: abs(a_x) - f_x^2 / (2 R).
+/// Where z is the first point, and at each node after it: abs(a_x) - f^2 / (2 R).
 /// H-14.64.
 #[test]
 fn what_a_circle_leads_to_is_no_widening() {
@@ -112,31 +112,78 @@ fn what_a_circle_leads_to_is_no_widening() {
     // R is 3 m for a CAV that stands; z counts, though s_b(0) = 0.
     is_wider_by(0.0, &[[0.75, 0.5]], &share(13, 32));
     is_wider_by(0.0, &[[0.75, 0.5], [1.0, 2.0]], &share(13, 32));
-    is_wider_by(11.5, &[[1.0, 0.5]], &share(21, 46));
-    is_wider_by(23.0, &[[1.0, 0.5]], &share(45, 92));
     // It goes aside at once: the greatest of all, not the first or the last.
     let aside = [[-1.0, 0.0], [0.5, 0.0], [1.0, 0.5], [1.25, 1.0], [1.5, 1.0]];
-    is_wider_by(5.0, &aside, &share(71, 96));
-    // What goes back is asked as if it were beside p.
-    is_wider_by(5.0, &[[0.5, 0.0], [-1.0, 0.75], [1.0, 0.0]], &share(3, 4));
-    is_wider_by(0.0, &[[0.5, 0.0], [-1.0, 0.75], [1.0, 0.0]], &share(3, 4));
+    is_wider_by(6.5, &aside, &share(71, 96));
+    // What goes back is asked as if it were beside p, up to a length of s_b(v).
+    let back = [[0.5, 0.0], [-1.0, 0.75], [1.0, 0.0]];
+    is_wider_by(7.0, &back, &share(3, 4));
+    is_wider_by(6.5, &back, &Real::zero());
+    is_wider_by(0.0, &back, &Real::zero());
 }
 
-/// s_b(4) = 1 m: a point behind z counts where f_x < s_b(v) + m, z anywhere.
+/// u = v - a_b f/v up to f = s_b(v), v/2 from there on; R = u^2 / (11.5 m/s^2) where that is above 3 m.
+/// H-14.64.
+#[test]
+fn a_cav_that_brakes_drives_a_smaller_circle() {
+    // u = 12.5 - 1 and R = 11.5, at z and at a node after it.
+    is_wider_by(12.5, &[[1.5625, 0.5]], &share(2319, 5888));
+    is_wider_by(12.5, &[[0.5, 0.0], [1.5625, 0.5]], &share(2319, 5888));
+    // f is 0 for what goes back, whatever u is.
+    is_wider_by(12.5, &[[0.5, 0.0], [-1.0, 0.5]], &share(1, 2));
+    // u = 11.5 and R = 11.5 for a first node at s_b(23) = 33.0625 m and for one farther ahead: v/2.
+    is_wider_by(23.0, &[[33.0625, 48.027_343_75]], &share(1, 2));
+    is_wider_by(23.0, &[[46.0, 92.5]], &share(1, 2));
+    is_wider_by(23.0, &[[-1.0, 0.0], [46.0, 94.0]], &Real::from_integer(2));
+}
+
+/// s_b(4) = 1 m: a node after z counts where its length is below s_b(v) + m, z anywhere.
 /// H-14.64, MARGIN-01.
 #[test]
-fn points_from_s_b_on_do_not_count() {
+fn nodes_from_a_length_of_s_b_on_do_not_count() {
+    // Its length is x + 0.5 m.
     let counts = |x: f64| {
-        let all = widenings(&cycle(4.0, &[[0.5, 0.0], [x, 0.5], [3.0, 0.0]]));
+        let all = widenings(&cycle(4.0, &[[0.375, 0.0], [x, 0.5], [3.0, 0.0]]));
         all.map(|it| it > Real::zero())
     };
     let [inside, outside] = [[true, true, false], [true, false, false]];
-    assert_eq!([1.0 - 2e-6, 1.0 - 0.5e-6].map(counts), [YES, inside]);
-    assert_eq!([1.0, 1.0 + 0.5e-6, 1.0 + 2e-6].map(counts), [outside, outside, NO]);
-    let [strict, exact, _] = widenings(&cycle(4.0, &[[0.5, 0.0], [1.0, 0.5]]));
-    assert_eq!([strict, exact], [share(1, 3), Real::zero()]);
+    assert_eq!([0.5 - 2e-6, 0.5 - 0.5e-6].map(counts), [YES, inside]);
+    assert_eq!([0.5, 0.5 + 0.5e-6, 0.5 + 2e-6].map(counts), [outside, outside, NO]);
+    let [strict, exact, _] = widenings(&cycle(4.0, &[[0.375, 0.0], [0.5, 0.5]]));
+    assert_eq!([strict, exact], [share(11, 24), Real::zero()]);
     is_wider_by(4.0, &[[1.0, 0.5]], &share(1, 3));
     is_wider_by(4.0, &[[-1.0, 0.0], [2.0, 1.5]], &share(5, 6));
+}
+
+/// Along a piece it grows along and across the heading of the node before it.
+/// H-14.59, H-14.64.
+#[test]
+fn the_length_goes_along_and_across_headings() {
+    let mut cycle = cycle(4.0, &[[0.5, 0.0], [0.75, 0.25]]);
+    cycle.parameters.delta = 1e-8;
+    let [_, exact, lax] = widenings(&cycle);
+    assert_eq!([exact, lax], [0; 2].map(Real::from_integer));
+    // 0.5 m, and 0.35 m along and 0.05 m across.
+    let z = &mut points(&mut cycle)[0];
+    (z.cos, z.sin) = (0.6, 0.8);
+    assert_eq!(widenings(&cycle), [5; 3].map(|n| share(n, 32)));
+}
+
+/// At 10 m/s, s_b = 6.25 m: after 5 m by 90 degrees, and 12 m on. Behind the turn the progress stays at 5 m.
+/// H-14.64.
+#[test]
+fn a_plan_that_turns_off_has_no_widening_behind_the_turn() {
+    let to_the_turn = (0..=5).map(|x| [f64::from(x), 0.0]);
+    let behind_it = (1..=12).map(|y| [5.0, f64::from(y)]);
+    let plan: Vec<[f64; 2]> = to_the_turn.chain(behind_it).collect();
+    is_wider_by(10.0, &plan, &Real::zero());
+    // With the headings of the turn.
+    let mut turning = cycle(10.0, &plan);
+    points(&mut turning)[6..].iter_mut().for_each(|point| (point.cos, point.sin) = (0.0, 1.0));
+    assert_eq!(widenings(&turning), [0; 3].map(Real::from_integer));
+    // The same nodes do count where the CAV needs farther to brake.
+    let faster = widenings(&cycle(20.0, &plan));
+    assert!(faster.iter().all(|it| *it > Real::from_integer(11)));
 }
 
 /// The witness is at the first point and compares the widening with lateral_tolerance.
