@@ -42,12 +42,20 @@ def parted(cycle):
     return passed, points[len(passed):]
 
 
+def circle(v, a_b, f):
+    """The radius of the smallest one that the CAV can drive up to f when it brakes."""
+    if v == 0:
+        return Fraction(3)
+    u = max(v - a_b * f / v, v / 2)
+    return max(3, u**2 / Fraction(11.5))
+
+
 def widening(cycle):
     """By how much the trajectory is farther aside than the CAV can be, where it passes the CAV and at
-    the points up to s_b. In fractions, as which points are ahead has no cautious side."""
+    the nodes up to a length of s_b. In fractions, as which points are ahead has no cautious side."""
     ego, (passed, nodes) = cycle["ego"], parted(cycle)
     v, a_b = Fraction(ego["speed"]), Fraction(cycle["parameters"]["a_b"])
-    radius, s_b = max(3, v**2 / Fraction(11.5)), v**2 / (2 * a_b)
+    s_b = v**2 / (2 * a_b)
 
     def at(point):
         """How far ahead a point is, and how far to the left."""
@@ -55,8 +63,9 @@ def widening(cycle):
         return ahead(x, y, ego), ahead(y, -x, ego)
 
     def beyond(f, aside):
-        """A circle of that radius leads so far aside."""
-        return abs(aside) - max(f, 0)**2 / (2 * radius)
+        """By how much a point is farther aside than the circle leads."""
+        f = max(f, 0)
+        return abs(aside) - f**2 / (2 * circle(v, a_b, f))
 
     found = [Fraction(0)]
     if passed:
@@ -65,8 +74,8 @@ def widening(cycle):
         if nodes and f_y <= 0:
             f_z, a_z = at(nodes[0])
             found = [abs(a_y * f_z - a_z * f_y) / (f_z - f_y)]
-    ways = [at(point) for point in nodes]
-    found += [beyond(*way) for k, way in enumerate(ways) if k == 0 or way[0] < s_b]
+    found += [beyond(*at(point)) for k, (point, length) in enumerate(zip(nodes, lengths(cycle)))
+              if k == 0 or length < s_b]
     return float(max(found))
 
 
@@ -83,6 +92,11 @@ def pieces(cycle):
         yield (x / n, y / n, length / n), n, a, b
     end = nodes[-1]
     yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), 0, end, end
+
+
+def lengths(cycle):
+    """Of the path up to each node behind p."""
+    return itertools.accumulate(n * step[2] for step, n, *_ in pieces(cycle) if n)
 
 
 def greatest_length(s_stop):
