@@ -1,7 +1,7 @@
 //! Where and when a trajectory starts, and that it keeps to the corridor and its direction (H-07
 //! of `spec/hardened/H-07.md`).
 
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::passes;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::range::larger;
@@ -42,7 +42,7 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
         // H-07.5
         (
             Rule::StartOffset,
-            at_most(widening(cycle, points), Real::new(cycle.parameters.lateral_tolerance)),
+            at_most(passes(cycle, points), Real::new(cycle.parameters.lateral_tolerance)),
         ),
     ];
     let broken = rules.into_iter().find(|&(_, (.., is_kept))| !is_kept);

@@ -18,7 +18,7 @@ const ROUGH: f64 = 1e-15;
 /// 1e-13 of the greatest coordinate, m; exact where no point is beyond what the CAV can drive.
 pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     let (ego, nodes) = (&cycle.ego, Nodes::new(cycle, points));
-    let passes = passes(ego, nodes.others(points).last(), nodes.points.first());
+    let passes = between(ego, nodes.others(points).last(), nodes.points.first());
     // H-14.64
     let (v, s_b) = (ego.speed, Times::<f64>::new(cycle).s_b);
     let until = s_b * (1.0 + ROUGH) + 1e-9;
@@ -49,8 +49,14 @@ pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     passes.max(Real::new(beyond * (1.0 + ROUGH)))
 }
 
-/// How far aside of the CAV the trajectory passes it, between the point before the first node and that (H-14.65).
-fn passes(ego: &Ego, before: Option<&TrajectoryPoint>, node: Option<&TrajectoryPoint>) -> Real {
+/// How far aside of the CAV the trajectory passes it (H-14.65), m.
+pub(crate) fn passes(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
+    let nodes = Nodes::new(cycle, points);
+    between(&cycle.ego, nodes.others(points).last(), nodes.points.first())
+}
+
+/// Between the point before the first node and that.
+fn between(ego: &Ego, before: Option<&TrajectoryPoint>, node: Option<&TrajectoryPoint>) -> Real {
     let split = |point: &TrajectoryPoint| {
         let away = Vector::between([ego.x, ego.y], [point.x, point.y]);
         let h = vector([ego.cos, ego.sin]);
