@@ -50,33 +50,40 @@ def circle(v, a_b, f):
     return max(3, u**2 / Fraction(11.5))
 
 
+def at(ego, point):
+    """How far ahead a point is, and how far to the left."""
+    x, y = displacement(ego, point)
+    return ahead(x, y, ego), ahead(y, -x, ego)
+
+
+def passing_distance(cycle):
+    """How far beside the CAV the trajectory passes it. In fractions, as which points are ahead has no
+    cautious side."""
+    ego, (passed, nodes) = cycle["ego"], parted(cycle)
+    if not passed:
+        return Fraction(0)
+    f_y, a_y = at(ego, passed[-1])
+    if not nodes or f_y > 0:
+        return abs(a_y)
+    f_z, a_z = at(ego, nodes[0])
+    return abs(a_y * f_z - a_z * f_y) / (f_z - f_y)
+
+
 def widening(cycle):
     """By how much the trajectory is farther aside than the CAV can be, where it passes the CAV and at
-    the nodes up to a length of s_b. In fractions, as which points are ahead has no cautious side."""
-    ego, (passed, nodes) = cycle["ego"], parted(cycle)
+    the nodes up to a length of s_b."""
+    ego, nodes = cycle["ego"], parted(cycle)[1]
     v, a_b = Fraction(ego["speed"]), Fraction(cycle["parameters"]["a_b"])
     s_b = v**2 / (2 * a_b)
-
-    def at(point):
-        """How far ahead a point is, and how far to the left."""
-        x, y = displacement(ego, point)
-        return ahead(x, y, ego), ahead(y, -x, ego)
 
     def beyond(f, aside):
         """By how much a point is farther aside than the circle leads."""
         f = max(f, 0)
         return abs(aside) - f**2 / (2 * circle(v, a_b, f))
 
-    found = [Fraction(0)]
-    if passed:
-        f_y, a_y = at(passed[-1])
-        found = [abs(a_y)]
-        if nodes and f_y <= 0:
-            f_z, a_z = at(nodes[0])
-            found = [abs(a_y * f_z - a_z * f_y) / (f_z - f_y)]
-    found += [beyond(*at(point)) for k, (point, length) in enumerate(zip(nodes, lengths(cycle)))
-              if k == 0 or length < s_b]
-    return float(max(found))
+    found = [beyond(*at(ego, point)) for k, (point, length) in enumerate(zip(nodes, lengths(cycle)))
+             if k == 0 or length < s_b]
+    return float(max([passing_distance(cycle), *found]))
 
 
 def pieces(cycle):
@@ -234,7 +241,8 @@ class FailSafe:
 
     def within_reach(self):
         """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once;
-        the path goes on, neither aside nor back for long; and the headings of the places go with it."""
+        the path goes on, neither aside nor back for long; the headings of the places go with it; and the
+        trajectory is not too far beside the CAV."""
         aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
         for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
             f, far = self.from_line(x, y)
@@ -249,7 +257,7 @@ class FailSafe:
             if (dot(self.ego, place.heading) <= EPS or turned > 0.17 + f / 3 - EPS
                     or f * turned > 0.17 * f + 2 * far + 0.5 - EPS):
                 return False
-        return True
+        return self.a <= self.cycle["parameters"]["lateral_tolerance"] - EPS
 
     def windows(self):
         """Of each place its pose and its window; no end where the CAV may stand."""

@@ -1,6 +1,6 @@
 //! H-07: the trajectory starts now and here, as the CAV is, stays in the corridor and heads along the route.
 
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::passing_distance;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::polyline::{Beside, Segment};
 use crate::numbers::real::Real;
@@ -80,9 +80,10 @@ fn start_heading_failure(scene: &Scene, start: &Point) -> Option<Witness> {
         .or_else(|| Witness::unless(scene.reads.at_most(&turned, &limit), rule, &turned, &limit))
 }
 
-/// The widening is at most lateral_tolerance.
+/// The distance at which the trajectory passes p is at most lateral_tolerance.
 fn start_offset_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let (widening, limit) = (widening(scene, trajectory), &scene.parameters.lateral_tolerance);
-    let passes = scene.reads.at_most(&widening, limit);
-    Witness::unless(passes, Rule::StartOffset, &widening, limit)
+    let (passing, limit) =
+        (passing_distance(scene, trajectory), &scene.parameters.lateral_tolerance);
+    let passes = scene.reads.at_most(&passing, limit);
+    Witness::unless(passes, Rule::StartOffset, &passing, limit)
 }

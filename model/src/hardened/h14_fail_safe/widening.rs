@@ -23,7 +23,7 @@ pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
 
 /// The distance at which the trajectory passes p, m: abs(a_y f_z - a_z f_y) / (f_z - f_y), or abs(a_y) where f_y > 0;
 /// without z abs(a_x) of the last point; 0 where z is the first point.
-fn passing_distance(scene: &Scene, trajectory: &[Point]) -> Real {
+pub fn passing_distance(scene: &Scene, trajectory: &[Point]) -> Real {
     let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
     let (passed, nodes) = trajectory.split_at(first_node);
     let Some(Point { pose: y, .. }) = passed.last() else { return Real::zero() };

@@ -1,15 +1,17 @@
 //! The widening of `spec/hardened/H-14.md#requirements-the-cav`, and what asks it.
 
+use mufasa_model::cycle::check;
 use mufasa_model::hardened::h14_fail_safe::widening::widening;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::numbers::real::Real;
-use mufasa_model::report::{Outcome, Rule, Stage};
+use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
 use super::following::{READINGS, beside, keeps_beside, moves_by_m};
 use super::scene;
 use crate::base::*;
-use crate::near::{NEAR_SAFE, NO, YES, points, safe};
+use crate::near::{NEAR_SAFE, NO, Near, YES, margins_move_rules, points, safe};
 
 /// The CAV at the origin at `v` m/s, s_b(v) = v^2/16, looks along x; the trajectory leads through these points.
 fn cycle(v: f64, places: &[[f64; 2]]) -> Cycle {
@@ -186,18 +188,27 @@ fn a_plan_that_turns_off_has_no_widening_behind_the_turn() {
     assert!(faster.iter().all(|it| *it > Real::from_integer(11)));
 }
 
-/// The witness is at the first point and compares the widening with lateral_tolerance.
-/// H-07.5.
-#[test]
-fn the_widening_is_at_most_lateral_tolerance() {
-    let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
+/// The rule that stage ii breaks, its point, and what it compares.
+type Found = (Rule, Option<usize>, [String; 2]);
+
+fn found(cycle: &Cycle, reading: Reading) -> Option<Found> {
+    let report = check(cycle, reading).expect("valid");
+    match &report.stages[Stage::Ii as usize] {
         Outcome::Failed(it) => {
             Some((it.rule, it.point, it.compared.each_ref().map(ToString::to_string)))
         }
         _ => None,
-    };
-    let offset =
-        |compared: [&str; 2]| Some((Rule::StartOffset, Some(0), compared.map(ToString::to_string)));
+    }
+}
+
+fn witness(rule: Rule, point: usize, compared: [&str; 2]) -> Found {
+    (rule, Some(point), compared.map(ToString::to_string))
+}
+
+/// The witness is at the first point and compares the distance at which the trajectory passes p with lateral_tolerance.
+/// H-07.5.
+#[test]
+fn the_trajectory_passes_within_lateral_tolerance() {
     let at = |y: f64| {
         let mut cycle = base(Profile::HARDENED, PlanRemote);
         cycle.ego.y = y;
@@ -205,23 +216,68 @@ fn the_widening_is_at_most_lateral_tolerance() {
     };
     for side in [1.0, -1.0] {
         assert_eq!(safe(&at(side * 0.5)), NEAR_SAFE);
-        assert_eq!(found(&at(side * 0.5)), None);
-        assert_eq!(found(&at(side * 0.625)), offset(["0.625", "0.5"]));
+        assert_eq!(found(&at(side * 0.5), Reading::Exact), None);
+        let offset = |compared| Some(witness(Rule::StartOffset, 0, compared));
+        assert_eq!(found(&at(side * 0.5), Reading::Strict), offset(["0.5", "0.5"]));
+        assert_eq!(found(&at(side * 0.625), Reading::Exact), offset(["0.625", "0.5"]));
     }
-    // The trajectory begins ahead: 0.5 m more than on the circle.
-    let ahead = |y: f64| {
-        let mut cycle = cycle(4.0, &[[0.75, y], [1.5, y], [2.25, y]]);
-        cycle.parameters.delta = 1e-8;
-        cycle
-    };
-    assert_eq!([0.59375, 0.59374].map(|y| safe(&ahead(y))), [NEAR_SAFE, YES]);
-    assert_eq!(found(&ahead(0.71875)), offset(["0.625", "0.5"]));
-    // The first point is on the CAV; a later one turns aside.
-    let later = cycle(4.0, &[[0.0, 0.0], [0.25, 0.625], [0.5, 0.625], [1.0, 0.625]]);
-    assert_eq!(
-        found(&later).map(|(rule, point, _)| (rule, point)),
-        Some((Rule::StartOffset, Some(0)))
-    );
+}
+
+/// The trajectory begins ahead, at f = 0.75 m: 3/32 m aside is on the circle.
+fn begins_ahead(y: f64) -> Cycle {
+    let mut cycle = cycle(4.0, &[[0.75, y], [1.5, y], [2.25, y]]);
+    cycle.parameters.delta = 1e-8;
+    cycle
+}
+
+/// The witness is at the first point and compares the widening with lateral_tolerance; H-07 does not ask it.
+/// H-14.66, H-07.5.
+#[test]
+fn the_widening_is_at_most_lateral_tolerance() {
+    let reach = |compared| Some(witness(Rule::Reach, 0, compared));
+    for side in [1.0, -1.0] {
+        let at = |y: f64| begins_ahead(side * y);
+        assert_eq!([0.59375, 0.59374].map(|y| safe(&at(y))), [NEAR_SAFE, YES]);
+        assert_eq!(found(&at(0.59375), Reading::Exact), None);
+        assert_eq!(found(&at(0.59375), Reading::Strict), reach(["0.5", "0.5"]));
+        let mut wide = at(0.625);
+        assert_eq!(found(&wide, Reading::Exact), reach(["0.53125", "0.5"]));
+        wide.profile = wide.profile.without(HardenedRule::H14);
+        assert_eq!(found(&wide, Reading::Strict), None);
+    }
+    // On each side of the bound, at a first point 1 m ahead and at a node after it.
+    let near: &[Near] = &[
+        ("a first point", PlanRemote, Profile::HARDENED, |c, e| {
+            // u = 9.2 m/s after 1 m: on a circle of 84.64 m / 11.5.
+            (c.ego.x, c.ego.y) = (-1.0, 0.25 + 11.5 / 169.28 + e);
+            c.parameters.lateral_tolerance = 0.25;
+        }),
+        ("a later node", PlanRemote, Profile::HARDENED, |c, e| {
+            let y = 0.25 + 11.5 / 169.28 + e;
+            *c = cycle(10.0, &[[0.5, 0.0], [1.0, y], [1.5, y], [2.0, y]]);
+            c.parameters.lateral_tolerance = 0.25;
+            c.profile = c.profile.without(HardenedRule::H11);
+        }),
+    ];
+    margins_move_rules(near, &[Rule::Reach; 2]);
+}
+
+/// H-14.15 and H-14.62 of every place come before the widening.
+/// H-14.66.
+#[test]
+fn the_widening_comes_after_all_places() {
+    // The first point is on the CAV; a later one turns aside, farther than tyres can.
+    let mut later = cycle(4.0, &[[0.0, 0.0], [0.25, 0.625], [0.5, 0.625], [1.0, 0.625]]);
+    later.profile = later.profile.without(HardenedRule::H11);
+    let (rule, point, [aside, _]) = found(&later, Reading::Exact).expect("aside");
+    assert_eq!((rule, point, aside.as_str()), (Rule::Reach, Some(4 + 3), "0.625"));
+    // The node at f = 1.5 m looks across.
+    let mut across = begins_ahead(0.625);
+    across.profile = across.profile.without(HardenedRule::H11);
+    assert_eq!(found(&across, Reading::Exact), Some(witness(Rule::Reach, 0, ["0.53125", "0.5"])));
+    let node = &mut points(&mut across)[1];
+    (node.cos, node.sin) = (0.0, 1.0);
+    assert_eq!(found(&across, Reading::Exact), Some(witness(Rule::Reach, 3 + 6, ["0", "0"])));
 }
 
 /// E_k is greater by it: 0.25 m of distance at p, half of both widths, and 0.25 m.
