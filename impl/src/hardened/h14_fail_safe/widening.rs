@@ -63,7 +63,7 @@ fn between(ego: &Ego, before: Option<&TrajectoryPoint>, node: Option<&Trajectory
         [away.dot(h), away.cross(h)]
     };
     let Some([f_y, y]) = before.map(split) else { return Real::ZERO };
-    let Some([f_z, z]) = node.map(split) else { return y.abs() };
+    let Some([f_z, z]) = node.map(split) else { return Real::ZERO };
     let on_the_way = || (y * f_z - z * f_y).abs().over(f_z - f_y);
     if f_y.certainly_at_most(Real::ZERO) {
         on_the_way()

@@ -26,7 +26,7 @@ fn neither_the_first_heading_nor_points_behind_hide_that_the_trajectory_is_besid
     for (places, turned) in [
         (&[[-2.65, -0.45], [-1.15, -0.45], [0.35, -0.45]][..], 0.168),
         (&[[-2.65, 0.0], [-1.15, -0.225], [-0.5, -0.45], [0.35, -0.45]], 0.0),
-        (&[[-2.65, 0.0], [-0.25, -0.45]], 0.0),
+        (&[[-2.65, 0.0], [0.1, -0.45], [0.5, -0.3]], 0.0),
         (&[[0.125, 0.45], [1.0, 0.0]], 0.0),
     ] {
         let aside = widened(15.0, places, turned);
@@ -69,8 +69,7 @@ fn by_the_text(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     };
     let s_b = v.squared().over(Real::new(2.0 * cycle.parameters.a_b));
     let passes = match z {
-        None => points.last().map_or(Real::ZERO, |it| seen(it)[1].abs()),
-        Some(0) => Real::ZERO,
+        None | Some(0) => Real::ZERO,
         Some(z) => {
             let ([f_y, a_y], [f_z, a_z]) = (seen(&points[z - 1]), seen(&points[z]));
             let between = (a_y * f_z - a_z * f_y).abs().over(f_z - f_y);
