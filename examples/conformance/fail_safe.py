@@ -60,10 +60,10 @@ def passing_distance(cycle):
     """How far beside the CAV the trajectory passes it. In fractions, as which points are ahead has no
     cautious side."""
     ego, (passed, nodes) = cycle["ego"], parted(cycle)
-    if not passed:
+    if not passed or not nodes:
         return Fraction(0)
     f_y, a_y = at(ego, passed[-1])
-    if not nodes or f_y > 0:
+    if f_y > 0:
         return abs(a_y)
     f_z, a_z = at(ego, nodes[0])
     return abs(a_y * f_z - a_z * f_y) / (f_z - f_y)

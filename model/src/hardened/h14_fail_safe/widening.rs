@@ -21,20 +21,19 @@ pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
         .fold(passing_distance(scene, trajectory), Real::max)
 }
 
-/// The distance at which the trajectory passes p, m: abs(a_y f_z - a_z f_y) / (f_z - f_y), or abs(a_y) where f_y > 0;
-/// without z abs(a_x) of the last point; 0 where z is the first point.
+/// The distance at which the trajectory passes p, m, from z and the point y before it: abs(a_y f_z - a_z f_y) / (f_z - f_y),
+/// or abs(a_y) where f_y > 0; 0 where z is the first point, or there is none.
 pub fn passing_distance(scene: &Scene, trajectory: &[Point]) -> Real {
-    let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
+    let Some(first_node) = first_ahead(scene, trajectory) else { return Real::zero() };
     let (passed, nodes) = trajectory.split_at(first_node);
     let Some(Point { pose: y, .. }) = passed.last() else { return Real::zero() };
     let [f_y, a_y] = [ahead(scene, &y.origin), aside(scene, &y.origin)];
-    match nodes.first() {
-        Some(Point { pose: z, .. }) if f_y <= Real::zero() => {
-            let [f_z, a_z] = [ahead(scene, &z.origin), aside(scene, &z.origin)];
-            (a_y * &f_z - a_z * &f_y).abs() / (f_z - f_y)
-        }
-        _ => a_y.abs(),
+    if f_y > Real::zero() {
+        return a_y.abs();
     }
+    let z = &nodes[0].pose;
+    let [f_z, a_z] = [ahead(scene, &z.origin), aside(scene, &z.origin)];
+    (a_y * &f_z - a_z * &f_y).abs() / (f_z - f_y)
 }
 
 /// abs(a_x) - f^2 / (2 R) with f = max(f_x, 0), m: by how much a point is farther aside than a circle of the radius R
