@@ -60,7 +60,9 @@ def passing_distance(cycle):
     """How far beside the CAV the trajectory passes it. In fractions, as which points are ahead has no
     cautious side."""
     ego, (passed, nodes) = cycle["ego"], parted(cycle)
-    if not passed or not nodes:
+    if not nodes:
+        return abs(at(ego, passed[0])[1])
+    if not passed:
         return Fraction(0)
     f_y, a_y = at(ego, passed[-1])
     if f_y > 0:

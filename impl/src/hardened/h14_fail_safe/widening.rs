@@ -3,7 +3,7 @@
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::reach::{CIRCLE, HALF_TYRES};
 use crate::hardened::h14_fail_safe::times::Times;
-use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
@@ -18,7 +18,7 @@ const ROUGH: f64 = 1e-15;
 /// 1e-13 of the greatest coordinate, m; exact where no point is beyond what the CAV can drive.
 pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     let (ego, nodes) = (&cycle.ego, Nodes::new(cycle, points));
-    let passes = between(ego, nodes.others(points).last(), nodes.points.first());
+    let passes = passes(cycle, points);
     // H-14.64
     let (v, s_b) = (ego.speed, Times::<f64>::new(cycle).s_b);
     let until = s_b * (1.0 + ROUGH) + 1e-9;
@@ -51,19 +51,17 @@ pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
 
 /// How far aside of the CAV the trajectory passes it (H-14.65), m.
 pub(crate) fn passes(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
-    let nodes = Nodes::new(cycle, points);
-    between(&cycle.ego, nodes.others(points).last(), nodes.points.first())
-}
-
-/// Between the point before the first node and that.
-fn between(ego: &Ego, before: Option<&TrajectoryPoint>, node: Option<&TrajectoryPoint>) -> Real {
+    let (ego, nodes) = (&cycle.ego, Nodes::new(cycle, points));
     let split = |point: &TrajectoryPoint| {
         let away = Vector::between([ego.x, ego.y], [point.x, point.y]);
         let h = vector([ego.cos, ego.sin]);
         [away.dot(h), away.cross(h)]
     };
-    let Some([f_y, y]) = before.map(split) else { return Real::ZERO };
-    let Some([f_z, z]) = node.map(split) else { return Real::ZERO };
+    let Some(node) = nodes.points.first() else {
+        return points.first().map_or(Real::ZERO, |first| split(first)[1].abs());
+    };
+    let Some([f_y, y]) = nodes.others(points).last().map(split) else { return Real::ZERO };
+    let [f_z, z] = split(node);
     let on_the_way = || (y * f_z - z * f_y).abs().over(f_z - f_y);
     if f_y.certainly_at_most(Real::ZERO) {
         on_the_way()

@@ -22,9 +22,11 @@ pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
 }
 
 /// The distance at which the trajectory passes p, m, from z and the point y before it: abs(a_y f_z - a_z f_y) / (f_z - f_y),
-/// or abs(a_y) where f_y > 0; 0 where z is the first point, or there is none.
+/// or abs(a_y) where f_y > 0; without z abs(a_x) of the first point; 0 where z is the first point.
 pub fn passing_distance(scene: &Scene, trajectory: &[Point]) -> Real {
-    let Some(first_node) = first_ahead(scene, trajectory) else { return Real::zero() };
+    let Some(first_node) = first_ahead(scene, trajectory) else {
+        return aside(scene, &trajectory[0].pose.origin).abs();
+    };
     let (passed, nodes) = trajectory.split_at(first_node);
     let Some(Point { pose: y, .. }) = passed.last() else { return Real::zero() };
     let [f_y, a_y] = [ahead(scene, &y.origin), aside(scene, &y.origin)];

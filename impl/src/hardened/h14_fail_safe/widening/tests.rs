@@ -69,7 +69,8 @@ fn by_the_text(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     };
     let s_b = v.squared().over(Real::new(2.0 * cycle.parameters.a_b));
     let passes = match z {
-        None | Some(0) => Real::ZERO,
+        None => points.first().map_or(Real::ZERO, |it| seen(it)[1].abs()),
+        Some(0) => Real::ZERO,
         Some(z) => {
             let ([f_y, a_y], [f_z, a_z]) = (seen(&points[z - 1]), seen(&points[z]));
             let between = (a_y * f_z - a_z * f_y).abs().over(f_z - f_y);
