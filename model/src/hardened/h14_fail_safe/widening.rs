@@ -15,7 +15,9 @@ pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
     let is_asked = |(i, (_, length)): &(usize, &(Vector, Real))| {
         *i == 0 || scene.reads.may_be_less(length, &s_b)
     };
-    let asked = nodes.iter().enumerate().filter(is_asked);
+    // What is on the line through p along h is no farther aside than any circle leads.
+    let is_aside = |(_, (x, _)): &(usize, &(Vector, Real))| aside(scene, x) != Real::zero();
+    let asked = nodes.iter().enumerate().filter(is_aside).filter(is_asked);
     asked
         .map(|(_, (x, _))| beyond_the_circle(scene, x))
         .fold(passing_distance(scene, trajectory), Real::max)
