@@ -3,7 +3,7 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::v_grid_map::DilatedCells;
@@ -28,7 +28,7 @@ pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
-    let more = 2.0 * widening(cycle, trajectory.points).magnitude();
+    let more = 2.0 * wider_by(cycle, trajectory.points).magnitude();
     //
     // H-14.27; rounded up, and by nothing where it is 0
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };

@@ -2,8 +2,8 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::times::{TYRES, Times, longest};
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::times::{CIRCLE, HALF_TYRES, Times, longest};
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -16,10 +16,6 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
-/// A car is taken to turn on no smaller circle, m: its radius.
-pub(super) const CIRCLE: f64 = 3.0;
-/// Half of what tyres hold, m/s^2.
-pub(super) const HALF_TYRES: f64 = 0.5 * TYRES;
 
 /// A point that is no node, or a place, that is not certainly within reach, or a trajectory that is too far aside of what
 /// the CAV can drive.
@@ -30,7 +26,7 @@ pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
 /// The widening is not certainly at most `lateral_tolerance`.
 fn widening_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     // H-14.66
-    let compared = [widening(cycle, points), Real::new(cycle.parameters.lateral_tolerance)];
+    let compared = [wider_by(cycle, points), Real::new(cycle.parameters.lateral_tolerance)];
     let [widening, limit] = compared;
     let witness = || Witness::of(Rule::Reach, compared.map(Real::value)).at_point(0);
     (!widening.certainly_at_most(limit)).then(witness)

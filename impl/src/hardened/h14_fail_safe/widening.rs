@@ -1,8 +1,7 @@
 //! By how much the CAV is wider at its places (H-14.64, `spec/hardened/H-14.md#requirements-the-cav`).
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
-use crate::hardened::h14_fail_safe::reach::{CIRCLE, HALF_TYRES};
-use crate::hardened::h14_fail_safe::times::Times;
+use crate::hardened::h14_fail_safe::times::{CIRCLE, HALF_TYRES, Times};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::larger;
@@ -16,7 +15,7 @@ const ROUGH: f64 = 1e-15;
 /// How much farther aside than the CAV the trajectory is: where it passes the CAV, and at the points that the
 /// CAV cannot come to. It does not say where the CAV joins it. Not below the number of the text, and above it by less than
 /// 1e-13 of the greatest coordinate, m; exact where no point is beyond what the CAV can drive.
-pub(crate) fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
+pub(crate) fn wider_by(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
     let (ego, nodes) = (&cycle.ego, Nodes::new(cycle, points));
     let passes = passes(cycle, points);
     // H-14.64

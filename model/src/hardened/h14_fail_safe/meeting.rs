@@ -6,7 +6,7 @@ use std::cell::LazyCell;
 use crate::hardened::h14_fail_safe::motions::{Motion, Named};
 use crate::hardened::h14_fail_safe::path::{Place, places};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, a_tyre, window};
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
 use crate::numbers::real::Real;
@@ -33,7 +33,7 @@ pub fn failure(
             is_examined.then_some((motion, comes_across, margin))
         })
         .collect();
-    let (driving, widening) = (Driving::of(scene), widening(scene, trajectory));
+    let (driving, widening) = (Driving::of(scene), wider_by(scene, trajectory));
     places(scene, trajectory).enumerate().find_map(|(k, place)| {
         let window = window(&scene.reads, &driving, &place.least, place.length_after.as_ref());
         let cav = wider(scene, &widening, &place.pose);
@@ -156,7 +156,7 @@ impl BesideRoute {
         let mut reference_path = scene.route.reference_path();
         reference_path.retain(|[from, to]| from != to);
         let places: Vec<Place> = places(scene, trajectory).collect();
-        let widening = widening(scene, trajectory);
+        let widening = wider_by(scene, trajectory);
         let [a, b] = a_and_b(scene, &reference_path, &places, &widening);
         let is_along = places.iter().all(|Place { pose, progress, .. }| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, pose).frame;

@@ -7,7 +7,7 @@ use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
 };
 use crate::hardened::h14_fail_safe::times::Driving;
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
@@ -75,7 +75,7 @@ fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
 
 /// The widening is at most lateral_tolerance.
 fn widening_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let (widening, limit) = (widening(scene, trajectory), &scene.parameters.lateral_tolerance);
+    let (widening, limit) = (wider_by(scene, trajectory), &scene.parameters.lateral_tolerance);
     let passes = scene.reads.at_most(&widening, limit);
     Witness::unless(passes, Rule::Reach, &widening, limit).map(|witness| witness.at_point(0))
 }

@@ -9,7 +9,7 @@ use crate::numbers::vector::Vector;
 
 /// The greatest of the distance at which the trajectory passes p and, for z and each node x after z whose length is
 /// below s_b(v), of abs(a_x) - f^2 / (2 R), m.
-pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
+pub fn wider_by(scene: &Scene, trajectory: &[Point]) -> Real {
     let nodes = nodes_behind_p(scene, trajectory);
     let s_b = Driving::of(scene).s_b();
     let is_asked = |(i, (_, length)): &(usize, &(Vector, Real))| {

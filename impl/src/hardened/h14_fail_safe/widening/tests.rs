@@ -1,7 +1,7 @@
 //! The widening against the text, in numbers with error bounds.
 
 use crate::hardened::h14_fail_safe::spot::tests::standing;
-use crate::hardened::h14_fail_safe::widening::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::numbers::rounding::Real;
@@ -17,7 +17,7 @@ fn widened(speed: f64, places: &[[f64; 2]], turned: f64) -> f64 {
         point(place, if index == 0 { turned } else { 0.0 })
     });
     let points = points.get(..places.len()).unwrap_or(&[]);
-    widening(&standing(speed, Parameters::default()), points).magnitude()
+    wider_by(&standing(speed, Parameters::default()), points).magnitude()
 }
 
 /// F-59: the first heading turns the trajectory towards the CAV, or points behind the CAV lead away from it.
@@ -115,7 +115,7 @@ fn the_widening_is_that_of_the_text_and_never_less() {
             let a = random.number(aside) + f * random.number(aside / 5.0);
             point([at + f * cos - a * sin, -at + f * sin + a * cos], 0.0)
         });
-        let (made, text) = (widening(&cycle, &points), by_the_text(&cycle, &points));
+        let (made, text) = (wider_by(&cycle, &points), by_the_text(&cycle, &points));
         let more = (made - text).value();
         assert!(-1e-24 * at.max(1.0) <= more && more < 1e-12, "{more}: {cycle:?} {points:?}");
         wide += i32::from(text.value() > 0.1);

@@ -1,7 +1,7 @@
 //! The widening of `spec/hardened/H-14.md#requirements-the-cav`, and what asks it.
 
 use mufasa_model::cycle::check;
-use mufasa_model::hardened::h14_fail_safe::widening::widening;
+use mufasa_model::hardened::h14_fail_safe::widening::wider_by;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::numbers::real::Real;
@@ -27,7 +27,7 @@ fn cycle(v: f64, places: &[[f64; 2]]) -> Cycle {
 fn widenings(cycle: &Cycle) -> [Real; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
-        widening(&scene, scene.trajectory.as_ref().expect("it is current"))
+        wider_by(&scene, scene.trajectory.as_ref().expect("it is current"))
     })
 }
 
