@@ -13,7 +13,7 @@ from functools import cached_property
 from beside import Beside
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach
-from stopping import Stop, a_tyre, cross, displacement, dot
+from stopping import Stop, a_tyre, between, cross, displacement, dot
 
 
 @dataclass
@@ -42,52 +42,6 @@ def parted(cycle):
     return passed, points[len(passed):]
 
 
-def circle(v, a_b, f):
-    """The radius of the smallest one that the CAV can drive up to f when it brakes."""
-    if v == 0:
-        return Fraction(3)
-    u = max(v - a_b * f / v, v / 2)
-    return max(3, u**2 / Fraction(11.5))
-
-
-def at(ego, point):
-    """How far ahead a point is, and how far to the left."""
-    x, y = displacement(ego, point)
-    return ahead(x, y, ego), ahead(y, -x, ego)
-
-
-def passing_distance(cycle):
-    """How far beside the CAV the trajectory passes it. In fractions, as which points are ahead has no
-    cautious side."""
-    ego, (passed, nodes) = cycle["ego"], parted(cycle)
-    if not nodes:
-        return abs(at(ego, passed[0])[1])
-    if not passed:
-        return Fraction(0)
-    f_y, a_y = at(ego, passed[-1])
-    if f_y > 0:
-        return abs(a_y)
-    f_z, a_z = at(ego, nodes[0])
-    return abs(a_y * f_z - a_z * f_y) / (f_z - f_y)
-
-
-def widening(cycle):
-    """By how much the trajectory is farther aside than the CAV can be, where it passes the CAV and at
-    the nodes up to a length of s_b."""
-    ego, nodes = cycle["ego"], parted(cycle)[1]
-    v, a_b = Fraction(ego["speed"]), Fraction(cycle["parameters"]["a_b"])
-    s_b = v**2 / (2 * a_b)
-
-    def beyond(f, aside):
-        """By how much a point is farther aside than the circle leads."""
-        f = max(f, 0)
-        return abs(aside) - f**2 / (2 * circle(v, a_b, f))
-
-    found = [beyond(*at(ego, point)) for k, (point, length) in enumerate(zip(nodes, lengths(cycle)))
-             if k == 0 or length < s_b]
-    return float(max([passing_distance(cycle), *found]))
-
-
 def pieces(cycle):
     """Of each piece: from one place to the next (x, y, length), how often, and the headings on the
     piece and at its end. The last one goes straight on without an end (0 times)."""
@@ -101,11 +55,6 @@ def pieces(cycle):
         yield (x / n, y / n, length / n), n, a, b
     end = nodes[-1]
     yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), 0, end, end
-
-
-def lengths(cycle):
-    """Of the path up to each node behind p."""
-    return itertools.accumulate(n * step[2] for step, n, *_ in pieces(cycle) if n)
 
 
 def greatest_length(s_stop):
@@ -243,8 +192,7 @@ class FailSafe:
 
     def within_reach(self):
         """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once;
-        the path goes on, neither aside nor back for long; the headings of the places go with it; and the
-        trajectory is not too far beside the CAV."""
+        the path goes on, neither aside nor back for long; and the headings of the places go with it."""
         aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
         for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
             f, far = self.from_line(x, y)
@@ -259,7 +207,7 @@ class FailSafe:
             if (dot(self.ego, place.heading) <= EPS or turned > 0.17 + f / 3 - EPS
                     or f * turned > 0.17 * f + 2 * far + 0.5 - EPS):
                 return False
-        return self.a <= self.cycle["parameters"]["lateral_tolerance"] - EPS
+        return True
 
     def windows(self):
         """Of each place its pose and its window; no end where the CAV may stand."""
@@ -272,8 +220,9 @@ class FailSafe:
 
     @cached_property
     def a(self):
-        """By how much half the CAV's width is greater: the trajectory may join the CAV anywhere."""
-        return widening(self.cycle)
+        """How far beside the CAV the trajectory begins: it may join it anywhere."""
+        first = self.cycle["trajectory"]["points"][0]
+        return abs(between(first, self.ego, first)[1])
 
     def motions(self, seen, tracks):
         for track in tracks:

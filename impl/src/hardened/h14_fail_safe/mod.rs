@@ -12,7 +12,6 @@ pub(crate) mod reach;
 pub(crate) mod road;
 mod spot;
 pub(crate) mod times;
-pub(crate) mod widening;
 pub(crate) mod work;
 
 use crate::hardened::detection_history::explained::Explained;

@@ -2,8 +2,7 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::times::{CIRCLE, HALF_TYRES, Times, longest};
-use crate::hardened::h14_fail_safe::widening::wider_by;
+use crate::hardened::h14_fail_safe::times::{TYRES, Times, longest};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
@@ -16,25 +15,14 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
-
-/// A point that is no node, or a place, that is not certainly within reach, or a trajectory that is too far aside of what
-/// the CAV can drive.
-pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
-    path_failure(cycle, points).or_else(|| widening_failure(cycle, points))
-}
-
-/// The widening is not certainly at most `lateral_tolerance`.
-fn widening_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
-    // H-14.66
-    let compared = [wider_by(cycle, points), Real::new(cycle.parameters.lateral_tolerance)];
-    let [widening, limit] = compared;
-    let witness = || Witness::of(Rule::Reach, compared.map(Real::value)).at_point(0);
-    (!widening.certainly_at_most(limit)).then(witness)
-}
+/// A car is taken to turn on no smaller circle, m: its radius.
+const CIRCLE: f64 = 3.0;
+/// Half of what tyres hold, m/s^2.
+const HALF_TYRES: f64 = 0.5 * TYRES;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
 /// without that stage ii of W1 and W2 takes a third more instructions.
-fn path_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (nodes, plain) = (Nodes::new(cycle, points), Plain::new(cycle));
     let p = [cycle.ego.x, cycle.ego.y];
     let aside = nodes.others(points).iter().enumerate().find_map(|(index, point)| {

@@ -8,11 +8,7 @@ use crate::numbers::rounding::Real;
 use crate::stages::distances::{Number, s_b};
 
 /// What tyres hold, m/s^2.
-const TYRES: f64 = 11.5;
-/// Half of that, m/s^2.
-pub(super) const HALF_TYRES: f64 = 0.5 * TYRES;
-/// A car is taken to turn on no smaller circle, m: its radius.
-pub(super) const CIRCLE: f64 = 3.0;
+pub(super) const TYRES: f64 = 11.5;
 
 /// What the CAV can do from now on; m, s, m/s.
 #[derive(Clone, Copy, Debug)]

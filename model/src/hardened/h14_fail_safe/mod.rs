@@ -8,7 +8,6 @@ pub mod path;
 pub mod reach;
 pub mod road;
 pub mod times;
-pub mod widening;
 pub mod work;
 
 use std::cell::LazyCell;

@@ -81,11 +81,6 @@ impl Piece {
         (-(-(longer / d)).floor()).max(1)
     }
 
-    /// The length at b.
-    fn length_at_b(&self) -> Real {
-        &self.length + self.growth()
-    }
-
     /// Its places behind a; the last one is b.
     fn steps(self, scene: &Scene) -> impl Iterator<Item = Step> {
         let (j, u, growth) = (self.parts(&d(scene)), self.u(), self.growth());
@@ -119,17 +114,11 @@ fn pieces(scene: &Scene, trajectory: &[Point]) -> (Vec<Piece>, Frame, Real) {
     let mut length = Real::zero();
     let piece = |ends: &[Frame]| {
         let piece = Piece { a: ends[0].clone(), b: ends[1].clone(), length: length.clone() };
-        length = piece.length_at_b();
+        length = &length + piece.growth();
         piece
     };
     let pieces = nodes.windows(2).map(piece).collect();
     (pieces, nodes[nodes.len() - 1].clone(), length)
-}
-
-/// The nodes behind p, each with its length, m: z is the first one.
-pub fn nodes_behind_p(scene: &Scene, trajectory: &[Point]) -> Vec<(Vector, Real)> {
-    let (pieces, ..) = pieces(scene, trajectory);
-    pieces.into_iter().map(|piece| (piece.b.origin.clone(), piece.length_at_b())).collect()
 }
 
 /// d_p = min(1/4 m, L).

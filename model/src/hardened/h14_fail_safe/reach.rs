@@ -1,13 +1,11 @@
 //! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, the path is not
-//! too long, no place is turned farther than an arc to it, and the trajectory is not too far beside the CAV
-//! (`spec/hardened/H-14.md#requirements-reach`).
+//! too long, and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::meeting::big_m;
 use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
 };
 use crate::hardened::h14_fail_safe::times::Driving;
-use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
@@ -16,7 +14,7 @@ use crate::report::{Rule, Witness};
 
 /// A point before the first node, or a place other than p, with f < s_b(v) is farther aside than
 /// 0.5 m + 0.17 f + 5.75 t^2, or the length at a place is above 2 s_stop + 1 m, or a place is turned
-/// farther than an arc to it; or, after all of them, the widening is above lateral_tolerance.
+/// farther than an arc to it.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
     let points = trajectory[..first_node].iter();
@@ -28,7 +26,6 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     });
     let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
     all.find_map(|(i, failure)| Some(failure?.at_point(i)))
-        .or_else(|| widening_failure(scene, trajectory))
 }
 
 /// f = max((x - p) . h, 0) and abs((x - p) x h), m.
@@ -71,13 +68,6 @@ fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     [arc, circle].into_iter().find_map(|(turned, limit)| {
         Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
     })
-}
-
-/// The widening is at most lateral_tolerance.
-fn widening_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let (widening, limit) = (wider_by(scene, trajectory), &scene.parameters.lateral_tolerance);
-    let passes = scene.reads.at_most(&widening, limit);
-    Witness::unless(passes, Rule::Reach, &widening, limit).map(|witness| witness.at_point(0))
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

@@ -9,7 +9,6 @@ mod reach;
 mod road;
 mod route_bends;
 mod times;
-mod widening;
 
 use mufasa_model::input::cycle::{Cycle, Track};
 use mufasa_model::input::scene::Scene;

@@ -81,7 +81,6 @@ fn margins_move_the_reach_of_points_that_are_no_nodes() {
 #[test]
 fn a_turn_on_the_spot_is_not_within_reach() {
     let mut cycle = base(HARDENED.without(HardenedRule::H11), PlanRemote);
-    cycle.parameters.lateral_tolerance = 3.0;
     let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
         Outcome::Failed(it) => Some((it.rule, it.point, it.compared[0].to_string())),
         _ => None,
