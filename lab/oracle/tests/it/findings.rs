@@ -27,7 +27,8 @@ fn read(file: impl AsRef<Path>) -> String {
 
 /// The vectors of a folder, which a test of `lab/conform` compares with those made anew.
 fn vectors(folder: &Path) -> Vec<serde_json::Value> {
-    let files = fs::read_dir(folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
+    let files =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let files = files.map(|file| file.expect("a file").path());
     let text: String =
         files.filter(|file| file.extension() == Some("jsonl".as_ref())).map(read).collect();
