@@ -540,7 +540,7 @@ typedef struct MufasaParameters {
   // Greatest error of the velocity of a track, m/s.
   // Default: 2.0
   double theta_velocity;
-  // H-07: how far aside of its first heading a trajectory may start, m.
+  // H-07, H-14: how far aside a trajectory may pass the CAV, and its greatest excess, m.
   // Default: 0.5
   double lateral_tolerance;
   // H-14: the greatest speed of an object that is looked for, m/s.
@@ -628,8 +628,8 @@ typedef struct MufasaTrajectoryPoint {
 //   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
 // * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
 //   turn as a vehicle can (H-11);
-// * reach: the path from the CAV through those that are ahead of it, and straight on, no farther aside than
-//   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
+// * reach: the path from the CAV through those that are ahead of it, and straight on, beyond what the CAV can
+//   drive by at most `lateral_tolerance` (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
 //   go on and stop;
 // * corridor: every point inside, none heading against the route (H-07), and each place of that path inside, up to
 //   where the CAV stands at the latest (H-14).

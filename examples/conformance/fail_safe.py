@@ -13,7 +13,7 @@ from functools import cached_property
 from beside import Beside
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach
-from stopping import Stop, a_tyre, between, cross, displacement, dot
+from stopping import Stop, a_tyre, cross, displacement, dot
 
 
 @dataclass
@@ -40,6 +40,41 @@ def parted(cycle):
     passed = list(itertools.takewhile(
         lambda point: ahead(*displacement(ego, point), ego) <= Fraction(1, 8), points))
     return passed, points[len(passed):]
+
+
+def circle(cycle, f):
+    """The radius of the smallest one that the CAV can drive up to f when it brakes."""
+    v = cycle["ego"]["speed"]
+    return max(3.0, max(v - cycle["parameters"]["a_b"] * f / v, v / 2)**2 / 11.5) if v > 0 else 3.0
+
+
+def at(ego, point):
+    """How far ahead a point is, and how far to the left."""
+    x, y = displacement(ego, point)
+    return ahead(x, y, ego), ahead(y, -x, ego)
+
+
+def passing_distance(cycle):
+    """How far beside the CAV the trajectory passes it. In fractions, as which points are ahead has no
+    cautious side."""
+    ego, (passed, nodes) = cycle["ego"], parted(cycle)
+    if not (passed and nodes) or at(ego, passed[-1])[0] > 0:
+        return Fraction(0)
+    (f_y, a_y), (f_z, a_z) = at(ego, passed[-1]), at(ego, nodes[0])
+    return abs(a_y * f_z - a_z * f_y) / (f_z - f_y)
+
+
+def excess(cycle, x, y, heading=None):
+    """By how much a place, from p on, is farther aside than the CAV can drive, or its heading swings
+    one of its ends farther aside."""
+    ego, away = cycle["ego"], {"cos": float(x), "sin": float(y)}
+    f = abs(dot(ego, away))
+    r = circle(cycle, f)
+    swung = 0.0
+    if heading:
+        lever = abs(ego["center_offset"]) + ego["length"] / 2
+        swung = lever * (abs(cross(ego, heading)) - f / r)
+    return max(abs(cross(ego, away)) - f**2 / (2 * r), swung)
 
 
 def pieces(cycle):
@@ -190,22 +225,24 @@ class FailSafe:
         """How far a place is ahead on the line along the CAV's heading, and how far it is from that line."""
         return max(ahead(x, y, self.ego), 0), abs(float(x) * self.ego["sin"] - float(y) * self.ego["cos"])
 
+    @cached_property
+    def excess(self):
+        """The greatest of the points that are no nodes and of all places except p."""
+        found = [excess(self.cycle, *displacement(self.ego, point)) for point in parted(self.cycle)[0]]
+        found += [excess(self.cycle, place.x, place.y, place.heading) for place in self.places[1:]]
+        return max(found, default=0.0)
+
     def within_reach(self):
-        """Tyres can bring the CAV to the places, and to the points that are no nodes, when it brakes at once;
-        the path goes on, neither aside nor back for long; and the headings of the places go with it."""
-        aside = [displacement(self.ego, point) for point in parted(self.cycle)[0]]
-        for x, y in [*aside, *((place.x, place.y) for place in self.places[1:])]:
-            f, far = self.from_line(x, y)
-            if f < self.stop.s_b and (
-                    far > 0.5 + 0.17 * float(f) + 5.75 * self.stop.braking(self.stop.a_b, f)**2 - EPS):
-                return False
+        """The CAV can drive the path, and what comes before it, up to lateral_tolerance; the path goes on,
+        neither aside nor back for long; and the headings of the places go with it."""
+        if self.excess > self.cycle["parameters"]["lateral_tolerance"] - EPS:
+            return False
         if self.places[-1].length > greatest_length(self.stop.s_stop) - EPS:
             return False
         for place in self.places[1:]:
             f, far = self.from_line(place.x, place.y)
             f, turned = float(f), abs(cross(self.ego, place.heading))
-            if (dot(self.ego, place.heading) <= EPS or turned > 0.17 + f / 3 - EPS
-                    or f * turned > 0.17 * f + 2 * far + 0.5 - EPS):
+            if dot(self.ego, place.heading) <= EPS or f * turned > 0.17 * f + 2 * far + 0.5 - EPS:
                 return False
         return True
 
@@ -220,9 +257,8 @@ class FailSafe:
 
     @cached_property
     def a(self):
-        """How far beside the CAV the trajectory begins: it may join it anywhere."""
-        first = self.cycle["trajectory"]["points"][0]
-        return abs(between(first, self.ego, first)[1])
+        """By how much half the CAV's width is greater: the trajectory may join the CAV anywhere."""
+        return max(float(passing_distance(self.cycle)), self.excess)
 
     def motions(self, seen, tracks):
         for track in tracks:

@@ -1,6 +1,7 @@
 """Stage ii of the hardened profile: is the trajectory one that the CAV can drive, on the route?"""
 import paper
 from detection_history import S
+from fail_safe import passing_distance
 from geometry import EPS, distance, in_corridor, segment_distance
 from stopping import between, cross, dot
 
@@ -12,7 +13,7 @@ def stage_ii(cycle):
 
 
 def starts_at_the_cav(cycle):
-    """H-07, the first point."""
+    """H-07, the first point, and how far beside the CAV the trajectory passes."""
     ego, first, parameters = cycle["ego"], cycle["trajectory"]["points"][0], cycle["parameters"]
     late_ns = cycle["now_ns"] - first["t_ns"]
     limit = parameters["start_tolerance"] + ego["speed"] * max(late_ns, 0) / S
@@ -20,7 +21,7 @@ def starts_at_the_cav(cycle):
             and distance(first, ego) <= limit - EPS
             and dot(first, ego) > EPS
             and abs(cross(first, ego)) <= 0.17 - EPS
-            and abs(between(first, ego, first)[1]) <= parameters["lateral_tolerance"] - EPS)
+            and float(passing_distance(cycle)) <= parameters["lateral_tolerance"] - EPS)
 
 
 def on_the_route(cycle):

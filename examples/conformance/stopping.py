@@ -48,14 +48,9 @@ class Stop:
         v_tau = v + self.a_max * tau
         self.s_tau = v * tau + self.a_max * tau**2 / 2
         self.s_stop = self.s_tau + v_tau**2 / (2 * self.a_b)
-        self.s_b = v**2 / (2 * self.a_b)
         self.a_tyre = Fraction(a_tyre(parameters))
         self.s_tyre = v**2 / (2 * self.a_tyre)
         self.T = float(tau + v_tau / self.a_b)
-
-    def braking(self, a, f):
-        """When the CAV has driven f, braking with a at once."""
-        return float(self.v / a) - still_braking(a, self.v**2 / (2 * a) - f)
 
     def first(self, f):
         """The earliest time at which it can have driven f."""
@@ -65,4 +60,4 @@ class Stop:
 
     def last(self, f):
         """The latest time at which it has driven no more than f, below s_tyre."""
-        return self.braking(self.a_tyre, f)
+        return float(self.v / self.a_tyre) - still_braking(self.a_tyre, self.s_tyre - f)

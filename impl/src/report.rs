@@ -95,7 +95,7 @@ pub enum Rule {
     StartPosition,
     /// H-07: the first heading is not the CAV's.
     StartHeading,
-    /// H-07: the trajectory starts too far aside.
+    /// H-07: the trajectory passes the CAV too far aside.
     StartOffset,
     /// H-07: a point outside the corridor. H-14: a place.
     Corridor,
@@ -115,7 +115,7 @@ pub enum Rule {
     StepTurn,
     /// H-11: the point is not where the headings lead.
     Slide,
-    /// H-14: a point or place is farther aside than tyres take the CAV.
+    /// H-14: a point or place is beyond what the CAV can drive, or the path is too long.
     Reach,
     /// Stage iv: gap <= `s_follow`; H-04: gap <= `s_react` + `s_since`.
     Gap,

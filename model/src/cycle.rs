@@ -5,6 +5,7 @@
 use crate::hardened::detection_history::ambiguous_failure;
 use crate::hardened::h02_h05_h10_schedule::{no_obstacle_check, schedule};
 use crate::hardened::h14_fail_safe::path::{self, Place};
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::hardened::h14_fail_safe::{self, meeting, reach, road};
 use crate::hardened::{h01_matched_pairs, h04_gap, h06_closed_cells, h07_start, h11_steps};
 use crate::input::cycle::Cycle;
@@ -134,8 +135,11 @@ fn grid_map(scene: &Scene, trajectory: &[Point], grid: &Grid) -> Option<Witness>
     let places = || {
         let points = v_grid_map::places(scene, trajectory).enumerate();
         let asks_places = scene.profile.has(HardenedRule::H04);
-        let wider = |place: Place| meeting::wider(scene, trajectory, &place.pose);
-        let places = asks_places.then(|| path::places(scene, trajectory).map(wider));
+        let places = asks_places.then(|| {
+            let widening = wider_by(scene, trajectory);
+            let wider = move |place: Place| meeting::wider(scene, &widening, &place.pose);
+            path::places(scene, trajectory).map(wider)
+        });
         points.chain((trajectory.len()..).zip(places.into_iter().flatten()))
     };
     let first = |rule, hits: h06_closed_cells::Test| {

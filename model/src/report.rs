@@ -80,7 +80,7 @@ macro_rules! witness_rules {
             StartPosition = "start_position";
             /// H-07: the first heading is not the CAV's.
             StartHeading = "start_heading";
-            /// H-07: the trajectory starts too far aside.
+            /// H-07: the trajectory passes the CAV too far aside.
             StartOffset = "start_offset";
             /// Stage ii: a point (H-07) or a place (H-14) outside the corridor.
             Corridor = "corridor";

@@ -2,7 +2,7 @@
 //! needs more than 10^10 comparisons is no input of the model.
 
 use crate::hardened::detection_history;
-use crate::hardened::h14_fail_safe::meeting::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::hardened::h14_fail_safe::{self, path};
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};
@@ -67,7 +67,7 @@ pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
             let half_width = &scene.ego.width / Real::from_integer(2);
             let at_places = match places(HardenedRule::H04) {
                 0 => 0,
-                places => places * cells(&(&half_width + widening(scene, trajectory))),
+                places => places * cells(&(&half_width + wider_by(scene, trajectory))),
             };
             points * cells(&half_width) + at_places
         }

@@ -1,8 +1,9 @@
 //! How many steps a cycle takes at most, by the sizes of its input (`spec/4-arithmetic.md#steps`): what a
 //! monitor compares with the time that it is given.
 
-use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
+use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
+use crate::hardened::h14_fail_safe::widening;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
@@ -167,11 +168,11 @@ pub(crate) const fn looks_along(profile: Profile) -> bool {
     profile.has(HardenedRule::H04) || profile.has(HardenedRule::H14)
 }
 
-/// By how much half the CAV is wider at the places of stage v, m: where H-07 asks that, stage v does not run with more.
+/// By how much half the CAV is wider at the places of stage v, m: where H-14 asks that, stage v does not run with more.
 fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
-    let [h04, h07] = [HardenedRule::H04, HardenedRule::H07].map(|rule| cycle.profile.has(rule));
-    let aside = if h04 { aside(&cycle.ego, points.first()).magnitude() } else { 0.0 };
-    if h07 { smaller(aside, cycle.parameters.lateral_tolerance) } else { aside }
+    let [h04, h14] = [HardenedRule::H04, HardenedRule::H14].map(|rule| cycle.profile.has(rule));
+    let aside = if h04 { widening::wider_by(cycle, points).magnitude() } else { 0.0 };
+    if h14 { smaller(aside, cycle.parameters.lateral_tolerance) } else { aside }
 }
 
 /// So many messages, offers, ticks and other events count between two cycles.

@@ -1,6 +1,7 @@
 //! Where and when a trajectory starts, and that it keeps to the corridor and its direction (H-07
 //! of `spec/hardened/H-07.md`).
 
+use crate::hardened::h14_fail_safe::widening::passes;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::range::larger;
@@ -31,8 +32,6 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     let [own, heading] = [(cycle.ego.cos, cycle.ego.sin), (first.cos, first.sin)]
         .map(|(cos, sin)| Vector::new(cos, sin));
     let (along, turned) = (own.dot(heading), own.cross(heading).abs());
-    let from_first = Vector::between([first.x, first.y], [cycle.ego.x, cycle.ego.y]);
-    let aside = from_first.cross(heading).abs();
     let at_most = |value: Real, limit: Real| (value, limit, value.certainly_at_most(limit));
     let rules = [
         // H-07.2
@@ -41,7 +40,10 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
         (Rule::StartHeading, (along, Real::ZERO, Real::ZERO.certainly_below(along))),
         (Rule::StartHeading, at_most(turned, Real::new(MOST_TURNED))),
         // H-07.5
-        (Rule::StartOffset, at_most(aside, Real::new(cycle.parameters.lateral_tolerance))),
+        (
+            Rule::StartOffset,
+            at_most(passes(cycle, points), Real::new(cycle.parameters.lateral_tolerance)),
+        ),
     ];
     let broken = rules.into_iter().find(|&(_, (.., is_kept))| !is_kept);
     broken.map(|(rule, (value, limit, _))| {

@@ -40,7 +40,7 @@ macro_rules! parameters {
             step_max_ns: i64 = 200_000_000 in [0, 60_000_000_000];
             /// Greatest error of the velocity of a track, m/s.
             theta_velocity: f64 = 2.0 in [f64::from_bits(1), 1e3];
-            /// H-07: how far aside of its first heading a trajectory may start, m.
+            /// H-07, H-14: how far aside a trajectory may pass the CAV, and its greatest excess, m.
             lateral_tolerance: f64 = 0.5 in [1e-3, 1e3];
             /// H-14: the greatest speed of an object that is looked for, m/s.
             v_object: f64 = 70.0 in [f64::from_bits(1), 1e3];

@@ -1,5 +1,6 @@
 //! H-07: the trajectory starts now and here, as the CAV is, stays in the corridor and heads along the route.
 
+use crate::hardened::h14_fail_safe::widening::passing_distance;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::polyline::{Beside, Segment};
 use crate::numbers::real::Real;
@@ -65,7 +66,7 @@ fn start_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let passes = scene.reads.at_most(&distance, &limit);
     Witness::unless(passes, Rule::StartPosition, &distance, &limit)
         .or_else(|| start_heading_failure(scene, start))
-        .or_else(|| start_offset_failure(scene, start))
+        .or_else(|| start_offset_failure(scene, trajectory))
         .map(|witness| witness.at_point(0))
 }
 
@@ -79,11 +80,10 @@ fn start_heading_failure(scene: &Scene, start: &Point) -> Option<Witness> {
         .or_else(|| Witness::unless(scene.reads.at_most(&turned, &limit), rule, &turned, &limit))
 }
 
-/// The part of p - first point across the first heading is at most lateral_tolerance.
-fn start_offset_failure(scene: &Scene, start: &Point) -> Option<Witness> {
-    let limit = &scene.parameters.lateral_tolerance;
-    let driven = &scene.ego.position - &start.pose.origin;
-    let across = driven.cross(&start.pose.direction).abs();
-    let passes = scene.reads.at_most(&across, limit);
-    Witness::unless(passes, Rule::StartOffset, &across, limit)
+/// The distance at which the trajectory passes p is at most lateral_tolerance.
+fn start_offset_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let (passing, limit) =
+        (passing_distance(scene, trajectory), &scene.parameters.lateral_tolerance);
+    let passes = scene.reads.at_most(&passing, limit);
+    Witness::unless(passes, Rule::StartOffset, &passing, limit)
 }

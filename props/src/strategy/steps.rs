@@ -149,7 +149,7 @@ fn slide(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     put(frame, cycle, (0..).zip(points).map(|(index, at)| (index * dt_ns, at)).collect());
 }
 
-/// An even turn of a few steps, then straight on: about as far as to turn back, or as on the smallest circle (H-14.62).
+/// An even turn of a few steps, then straight on: about as far as to turn back, or as on the smallest circle (H-14.64).
 fn turn(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let turns_back = draw.one_in(3);
     let (steps, step_ns) =
@@ -164,7 +164,9 @@ fn turn(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         let middles = (0..steps).map(|k| (each * (k as f64 + 0.5)).cos());
         speed * dt / (0.5 * each).cos() * middles.sum::<f64>()
     };
-    let circle = (0..50).fold(0.2_f64, |angle, _| (0.17 + ahead(angle) / 3.0).min(1.0).asin());
+    let lever = cycle.ego.center_offset.abs() + 0.5 * cycle.ego.length;
+    let swung = cycle.parameters.lateral_tolerance / lever;
+    let circle = (0..50).fold(0.2_f64, |angle, _| (swung + ahead(angle) / 3.0).min(1.0).asin());
     let angle = draw.near(if turns_back { std::f64::consts::FRAC_PI_2 } else { circle });
     let side = draw.pick(&[1.0, -1.0]);
     cycle.ego.speed = speed;

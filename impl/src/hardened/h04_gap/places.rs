@@ -1,8 +1,9 @@
 //! Stage v where the CAV is until it stops, behind the points that the paper names (H-04 of
 //! `spec/hardened/H-04.md`).
 
-use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
+use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::v_grid_map::DilatedCells;
@@ -27,9 +28,9 @@ pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
-    let more = 2.0 * aside(&cycle.ego, trajectory.points.first()).magnitude();
+    let more = 2.0 * wider_by(cycle, trajectory.points).magnitude();
     //
-    // H-14.27; rounded up, and by nothing where the trajectory begins at the CAV
+    // H-14.27; rounded up, and by nothing where it is 0
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };
     Places {
         nodes: Nodes::new(cycle, trajectory.points),

@@ -22,8 +22,9 @@ pub(super) const BEND: f64 = 0.05;
 pub(super) const RADIUS: f64 = 30.0;
 /// The same radius for who does not come towards the CAV, m.
 const STRAIGHT: f64 = 300.0;
-/// How far from the reference path an object may be that keeps beside, m.
+/// Nobody keeps beside nearer to the reference path: less than the 0.1 m of MARGIN-18, m.
 const NEAREST: f64 = 0.09;
+/// Nor farther from it (H-14.37), m.
 const FARTHEST: f64 = 20.0;
 /// How far to the side, for each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 0.1;

@@ -9,9 +9,10 @@ use crate::cycle::steps::{BOX, EXACT, NODE, PIECE, PLACE, STRETCHES, WALK};
 use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
-use crate::hardened::h14_fail_safe::nodes::{Nodes, aside};
+use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Piece, Place, Start};
 use crate::hardened::h14_fail_safe::spot::Spot;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
@@ -51,7 +52,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         trajectory: &'c [TrajectoryPoint],
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
-        let (cycle, aside) = (nodes.cycle, aside(&nodes.cycle.ego, trajectory.first()).magnitude());
+        let (cycle, aside) = (nodes.cycle, wider_by(nodes.cycle, trajectory).magnitude());
         // H-14.26: as wide as at the places, or by less than 1e-13 of it more.
         let width = (cycle.ego.width + 2.0 * aside) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));

@@ -3,6 +3,7 @@
 
 mod beside;
 mod cover;
+mod excess;
 mod meeting;
 mod motion;
 mod motions;
@@ -12,6 +13,7 @@ pub(crate) mod reach;
 pub(crate) mod road;
 mod spot;
 pub(crate) mod times;
+pub(crate) mod widening;
 pub(crate) mod work;
 
 use crate::hardened::detection_history::explained::Explained;

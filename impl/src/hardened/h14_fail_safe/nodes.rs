@@ -6,11 +6,8 @@ use core::iter;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::exact::{Product, compare};
-use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
-use crate::numbers::rounding::Real;
 use crate::stages::llcc::sweep::{minus, split};
-use crate::stages::llcc::vector;
 
 /// How far ahead the first point has to be that is a node, m.
 const AHEAD: f64 = 0.125;
@@ -102,14 +99,4 @@ fn is_ahead(ego: &Ego, point: &TrajectoryPoint) -> bool {
     let along =
         [Product([point.x, ego.x], [ego.cos, 0.0]), Product([point.y, ego.y], [ego.sin, 0.0])];
     compare(&along, &[Product([AHEAD, 0.0], [1.0, 0.0])]) == Ordering::Greater
-}
-
-/// By how much half the CAV is wider (H-14.26), m: as far as it is aside of the trajectory's first
-/// point. One that begins beside it does not say where it joins.
-pub(crate) fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
-    //
-    start.map_or(Real::ZERO, |start| {
-        let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
-        from.cross(vector([start.cos, start.sin])).abs()
-    })
 }

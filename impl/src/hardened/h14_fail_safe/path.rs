@@ -327,7 +327,7 @@ impl Piece {
         [x + self.u.x.value() * share, y + self.u.y.value() * share]
     }
 
-    /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18).
+    /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18, MARGIN-19).
     pub(crate) fn has_certain_end(&self) -> bool {
         let k = self.n.max(self.count().saturating_sub(1));
         if self.progress(k).certainly_below(self.s_stop) || self.is_over && self.count() == 1 {
@@ -340,6 +340,31 @@ impl Piece {
 
     pub(crate) const fn heading(&self) -> [f64; 2] {
         self.node.heading
+    }
+
+    /// The greatest of `known` and of its places, or at most `negligible` less; `at_most`: of the first to the last of these.
+    pub(crate) fn greatest(
+        &self,
+        (mut known, negligible): (Real, f64),
+        at_most: impl Fn([i64; 2]) -> f64,
+        of: impl Fn(&Place) -> Real,
+    ) -> Real {
+        let count = self.count();
+        let (mut at, mut size) = (0_i64, count);
+        while at < count {
+            let end = at.saturating_add(size).min(count);
+            let last = end.saturating_sub(1);
+            if at_most([at, last]) <= known.value() + negligible {
+                at = end;
+                size = size.saturating_mul(2);
+            } else if last > at {
+                size = end.saturating_sub(at) >> 1;
+            } else {
+                known = known.max(of(&self.place(at)));
+                at = end;
+            }
+        }
+        known
     }
 
     /// The first place where `find` finds something. `is_free`: whether it certainly finds nothing from

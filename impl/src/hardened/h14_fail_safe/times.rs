@@ -24,8 +24,6 @@ pub(crate) struct Times<N> {
     pub(crate) s_stop: N,
     /// T
     pub(crate) until_stop: N,
-    /// `s_b(v)`: where the CAV stands that brakes with `a_b`.
-    pub(crate) s_b: N,
     /// `s_tyre(v)`: from here on the CAV may stand.
     pub(crate) s_tyre: N,
     /// What plain doubles err in the square of a speed.
@@ -51,7 +49,6 @@ impl<N: Number> Times<N> {
             s_tau,
             s_stop: s_tau.plus(s_b(parameters, v_tau)),
             until_stop: tau.plus(v_tau.divided_by(a_b)),
-            s_b: s_b(parameters, v),
             s_tyre: s_tyre(parameters, v),
             rough: N::from_double(N::ROUGH).times(v_tau.times(v_tau)),
         }
@@ -74,19 +71,10 @@ impl<N: Number> Times<N> {
 
     /// The latest time at f < `s_tyre(v)`. In plain doubles up to 1e-9 s less.
     pub(crate) fn last(&self, f: N) -> N {
-        self.braking(f, self.a_tyre)
-    }
-
-    /// When the CAV is at f < `s_b(v)`, braking with `a_b`: t of H-14.15.
-    pub(crate) fn braking_with_a_b(&self, f: N) -> N {
-        self.braking(f, self.a_b)
-    }
-
-    /// When it is at f, braking with `a`. In plain doubles up to 1e-9 s less.
-    fn braking(&self, f: N, a: N) -> N {
-        let squared = self.v.times(self.v).minus(double(a).times(f)).minus(self.rough);
+        let braked = double(self.a_tyre).times(f);
+        let squared = self.v.times(self.v).minus(braked).minus(self.rough);
         let left = squared.or_larger(N::from_double(0.0)).root();
-        self.v.minus(left).divided_by(a)
+        self.v.minus(left).divided_by(self.a_tyre)
     }
 }
 

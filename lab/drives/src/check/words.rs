@@ -112,7 +112,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         Rule::StartHeading => {
             ("first heading is not the CAV's, by their cross product".to_owned(), "", ">")
         }
-        Rule::StartOffset => ("trajectory starts aside of the CAV".to_owned(), "m", ">"),
+        Rule::StartOffset => ("trajectory passes aside of the CAV".to_owned(), "m", ">"),
         Rule::Corridor => {
             (format!("{point} outside the corridor, off the reference path"), "m", ">")
         }
@@ -134,7 +134,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
             ">",
         ),
         Rule::Slide => (format!("{point} is beside where the headings lead"), "m", ">"),
-        Rule::Reach => (format!("{point} is farther aside than tyres carry the CAV"), "m", ">"),
+        Rule::Reach => (format!("{point} is beyond reach of the CAV"), "m", ">"),
         Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
         Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
         Rule::FailSafe => {

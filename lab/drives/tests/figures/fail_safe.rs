@@ -1,11 +1,13 @@
 //! H-14: places, windows, reach and motions.
 
+use mufasa_model::hardened::h14_fail_safe::excess;
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, all_motions};
 use mufasa_model::hardened::h14_fail_safe::path::{first_ahead, places};
 use mufasa_model::hardened::h14_fail_safe::reach;
 use mufasa_model::hardened::h14_fail_safe::times::{Driving, a_tyre, window};
 use mufasa_model::input::scene::Scene;
 use mufasa_model::numbers::real::Real;
+use mufasa_model::numbers::vector::Vector;
 use mufasa_model::stages::llcc::cav;
 use serde_json::json;
 
@@ -109,7 +111,7 @@ pub fn windows() -> String {
     sheet.finish()
 }
 
-/// How far aside tyres can carry the CAV.
+/// How far aside the CAV can drive, and lateral_tolerance.
 pub fn reach() -> String {
     let swerve = |aside: f64| -> Vec<[f64; 3]> {
         let angle = |x: f64| (aside * 0.24 * (x / 4.0).min(1.0)).atan();
@@ -129,16 +131,17 @@ pub fn reach() -> String {
         let failure = reach::failure(&scene, points).and_then(|witness| witness.point);
         let driving = Driving::of(&scene);
         let words = failure.map_or(
-            "No place is beyond the limit.",
-            |_| "Red: the first place beyond the limit; stage ii fails.",
+            "No place has an excess above lateral_tolerance.",
+            |_| "Red: the first place with too great an excess, by its heading.",
         );
         let look = Look { title, words, low: [-0.4, -1.2], scale: [62.0; 2] };
         sheet.panel(&look, |pen| {
             let limit = |side: f64| -> Vec<[f64; 2]> {
-                let ways = (0..50).map(|k| driving.s_b().near() * f64::from(k) / 50.0);
+                let ways = (0..50).map(|k| driving.s_stop().near() * f64::from(k) / 50.0);
+                // The excess on the line is below 0 by as much as the circle leads aside.
                 let limit = |f: f64| {
-                    let t = driving.braking_with(driving.a_b, &Real::from_double(f)).near();
-                    0.5 + 0.17 * f + 5.75 * t * t
+                    let ahead = Vector { x: Real::from_double(f), y: Real::zero() };
+                    0.5 - excess::of_point(&scene, &ahead).near()
                 };
                 ways.map(|f| [f, side * limit(f)]).collect()
             };

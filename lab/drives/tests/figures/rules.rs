@@ -188,7 +188,7 @@ pub fn h07() -> String {
         outcome(&changes, Stage::Ii) == Outcome::Passed
     };
     let mut sheet = Sheet::new(2, [430.0, 200.0], 3);
-    let words = "Dots: where a first point with the CAV's heading passes, t0 = now: within start_tolerance of p (circle) and lateral_tolerance across.";
+    let words = "Dots: where a first point with the CAV's heading passes, t0 = now: within start_tolerance of p (circle), not aside where it passes p (H-07.5), and within reach (H-14.15).";
     let look =
         Look { title: "Where the first point may be", words, low: [-3.2, -2.3], scale: [43.0; 2] };
     sheet.panel(&look, |pen| {

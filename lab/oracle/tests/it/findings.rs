@@ -197,33 +197,6 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
     assert!(verdicts[0] > 5 && verdicts[1] > 15, "{verdicts:?}");
 }
 
-/// The open part of F-37: model and implementation accept `F-58-wall` once the first point is behind the CAV and turned
-/// towards it.
-#[test]
-fn a_first_heading_that_is_turned_hides_a_wall_beside_the_plan() {
-    let all = vectors(&root().join("vectors/findings"));
-    let wall = all.into_iter().find(|it| it["id"] == "F-58-wall").expect("F-58-wall");
-    let mut input = wall["input"].clone();
-    let read = |input: &serde_json::Value| match json::parse(input.to_string().as_bytes(), 1) {
-        Ok(Record::Cycle { cycle, .. }) => cycle,
-        _ => panic!("no cycle: {input}"),
-    };
-    assert!(!is_safe(&read(&input)));
-    let points = input["trajectory"]["points"].as_array_mut().expect("points");
-    for (k, point) in (0_u32..).zip(points.iter_mut()) {
-        point["x"] = (1.5 * f64::from(k) - 2.65).into();
-        point["t_ns"] = (950_000_000 + 100_000_000 * u64::from(k)).into();
-    }
-    assert!(!is_safe(&read(&input)), "behind the CAV alone");
-    let turned = (0.45_f64 / 2.65).atan();
-    let first = &mut input["trajectory"]["points"][0];
-    (first["cos"], first["sin"]) = (turned.cos().into(), turned.sin().into());
-    let cycle = read(&input);
-    assert!(is_safe(&cycle));
-    let implementation = bridge::check_impl(&cycle).expect("the local input is valid");
-    assert_eq!(implementation.failed_stage, None);
-}
-
 fn is_safe(cycle: &Cycle) -> bool {
     let report = check(cycle, Reading::Exact).expect("the local input is valid");
     report.failed_stage.is_none()

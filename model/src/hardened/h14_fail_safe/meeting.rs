@@ -6,6 +6,7 @@ use std::cell::LazyCell;
 use crate::hardened::h14_fail_safe::motions::{Motion, Named};
 use crate::hardened::h14_fail_safe::path::{Place, places};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, a_tyre, window};
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
 use crate::numbers::real::Real;
@@ -32,10 +33,10 @@ pub fn failure(
             is_examined.then_some((motion, comes_across, margin))
         })
         .collect();
-    let driving = Driving::of(scene);
+    let (driving, widening) = (Driving::of(scene), wider_by(scene, trajectory));
     places(scene, trajectory).enumerate().find_map(|(k, place)| {
         let window = window(&scene.reads, &driving, &place.least, place.length_after.as_ref());
-        let cav = wider(scene, trajectory, &place.pose);
+        let cav = wider(scene, &widening, &place.pose);
         let (motion, ..) = examined.iter().find(|(motion, comes_across, margin)| {
             let cav = cav.with_halves(|half| half + margin);
             sweeps_over(scene, &cav, &window, motion, *comes_across)
@@ -48,9 +49,9 @@ pub fn failure(
 }
 
 /// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by the widening.
-pub fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
+pub fn wider(scene: &Scene, widening: &Real, pose: &Frame) -> Rectangle {
     let cav = cav(scene, pose);
-    let half_width = &cav.half_width + widening(scene, trajectory);
+    let half_width = &cav.half_width + widening;
     Rectangle { half_width, ..cav }
 }
 
@@ -61,12 +62,6 @@ fn margin(scene: &Scene, motion: &Motion) -> Real {
     let goes = &motion.speed * (Real::from_integer(60) + h(scene, motion));
     let d = x.abs() + y.abs() + goes;
     scene.reads.m_at_least(Real::from_double(1e-8) + Real::from_double(1e-12) * d)
-}
-
-/// abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
-pub fn widening(scene: &Scene, trajectory: &[Point]) -> Real {
-    let Frame { origin: x_0, direction: h_0 } = &trajectory[0].pose;
-    (&scene.ego.position - x_0).cross(h_0).abs()
 }
 
 /// Over the window the object sweeps over a point of the CAV's rectangle. Where the CAV may stand the window ends at
@@ -161,12 +156,13 @@ impl BesideRoute {
         let mut reference_path = scene.route.reference_path();
         reference_path.retain(|[from, to]| from != to);
         let places: Vec<Place> = places(scene, trajectory).collect();
-        let [a, b] = a_and_b(scene, &reference_path, &places, &widening(scene, trajectory));
+        let widening = wider_by(scene, trajectory);
+        let [a, b] = a_and_b(scene, &reference_path, &places, &widening);
         let is_along = places.iter().all(|Place { pose, progress, .. }| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, pose).frame;
             is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, progress)
         });
-        let cavs = places.iter().map(|place| wider(scene, trajectory, &place.pose)).collect();
+        let cavs = places.iter().map(|place| wider(scene, &widening, &place.pose)).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
         Self { reference_path, a, b, cavs, is_along, bends_little, bends }
     }

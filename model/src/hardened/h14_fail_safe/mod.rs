@@ -2,12 +2,14 @@
 //! then braking along its path, meets nobody. Reach and road are rules of stage ii, the rest stands in the
 //! place of stage iv.
 
+pub mod excess;
 pub mod meeting;
 pub mod motions;
 pub mod path;
 pub mod reach;
 pub mod road;
 pub mod times;
+pub mod widening;
 pub mod work;
 
 use std::cell::LazyCell;

@@ -81,6 +81,11 @@ impl Piece {
         (-(-(longer / d)).floor()).max(1)
     }
 
+    /// The length at b.
+    fn length_at_b(&self) -> Real {
+        &self.length + self.growth()
+    }
+
     /// Its places behind a; the last one is b.
     fn steps(self, scene: &Scene) -> impl Iterator<Item = Step> {
         let (j, u, growth) = (self.parts(&d(scene)), self.u(), self.growth());
@@ -114,7 +119,7 @@ fn pieces(scene: &Scene, trajectory: &[Point]) -> (Vec<Piece>, Frame, Real) {
     let mut length = Real::zero();
     let piece = |ends: &[Frame]| {
         let piece = Piece { a: ends[0].clone(), b: ends[1].clone(), length: length.clone() };
-        length = &length + piece.growth();
+        length = piece.length_at_b();
         piece
     };
     let pieces = nodes.windows(2).map(piece).collect();

@@ -1,6 +1,9 @@
-//! Reach: no place, and no point that is no node, is farther aside than tyres can carry the CAV, the path is not
-//! too long, and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
+//! Reach: the excess of no point that is no node and of no place is above lateral_tolerance, the path is not too long,
+//! and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
 
+use crate::hardened::h14_fail_safe::excess::{
+    aside, is_aside, is_aside_or_turned, no_nodes, of_place, of_point,
+};
 use crate::hardened::h14_fail_safe::meeting::big_m;
 use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
@@ -9,41 +12,36 @@ use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
-use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// A point before the first node, or a place other than p, with f < s_b(v) is farther aside than
-/// 0.5 m + 0.17 f + 5.75 t^2, or the length at a place is above 2 s_stop + 1 m, or a place is turned
-/// farther than an arc to it.
+/// The excess of a point that is no node, or of a place other than p, is above lateral_tolerance, or the length at a
+/// place is above 2 s_stop + 1 m, or a place is turned farther than an arc to it.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let first_node = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
-    let points = trajectory[..first_node].iter();
-    let of_points = points.map(|point| aside_failure(scene, &point.pose.origin)).enumerate();
+    let of_points = no_nodes(scene, trajectory)
+        .map(|x| excess_failure(scene, is_aside(scene, x), || of_point(scene, x)))
+        .enumerate();
     let of_places = places(scene, trajectory).map(|place| {
-        let aside = aside_failure(scene, &place.pose.origin);
-        let length = || length_failure(scene, &place);
-        aside.or_else(length).or_else(|| heading_failure(scene, &place))
+        let is_asked = is_aside_or_turned(scene, &place.pose);
+        excess_failure(scene, is_asked, || of_place(scene, &place.pose))
+            .or_else(|| length_failure(scene, &place))
+            .or_else(|| heading_failure(scene, &place))
     });
     let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
     all.find_map(|(i, failure)| Some(failure?.at_point(i)))
 }
 
-/// f = max((x - p) . h, 0) and abs((x - p) x h), m.
-fn ahead_and_aside(scene: &Scene, x: &Vector) -> [Real; 2] {
-    let aside = (x - &scene.ego.position).cross(&scene.ego.heading).abs();
-    [ahead(scene, x).max(Real::zero()), aside]
-}
-
-/// abs((x - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t that of braking with a_b up to f, where f < s_b(v).
-fn aside_failure(scene: &Scene, x: &Vector) -> Option<Witness> {
-    let driving = Driving::of(scene);
-    let [f, aside] = ahead_and_aside(scene, x);
-    if !scene.reads.may_be_less(&f, &driving.s_b()) {
+/// excess <= lateral_tolerance. Where it may not be above 0 it is not worked out, if 0 passes.
+fn excess_failure(
+    scene: &Scene,
+    may_be_above_0: bool,
+    excess: impl FnOnce() -> Real,
+) -> Option<Witness> {
+    let (reads, limit) = (&scene.reads, &scene.parameters.lateral_tolerance);
+    if !may_be_above_0 && reads.at_most(&Real::zero(), limit) {
         return None;
     }
-    let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
-    let limit = offset + turn * &f + grip * driving.braking_with(driving.a_b, &f).square();
-    Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)
+    let excess = excess();
+    Witness::unless(reads.at_most(&excess, limit), Rule::Reach, &excess, limit)
 }
 
 /// length <= 2 s_stop + 1 m.
@@ -53,21 +51,19 @@ fn length_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     Witness::unless(is_short, Rule::Reach, length, &greatest)
 }
 
-/// h . h_k > 0, f abs(h x h_k) <= 0.17 f + 2 d + 0.5 m, and abs(h x h_k) <= 0.17 + f/3 m.
+/// h . h_k > 0, and f abs(h x h_k) <= 0.17 f + 2 abs(a_x) + 0.5 m with f = max(f_x, 0).
 fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     let (reads, h, h_k) = (&scene.reads, &scene.ego.heading, &place.pose.direction);
     let (along, zero) = (h.dot(h_k), Real::zero());
     if !reads.greater(&along, &zero) {
         return Some(Witness::new(Rule::Reach, &along, &zero));
     }
-    let [f, d] = ahead_and_aside(scene, &place.pose.origin);
+    let f = place.progress.clone().max(zero);
+    let aside = aside(scene, &place.pose.origin).abs();
     let [turn, offset] = [0.17, 0.5].map(Real::from_double);
-    let sine = h.cross(h_k).abs();
-    let arc = (&f * &sine, &turn * &f + Real::from_integer(2) * d + offset);
-    let circle = (sine, turn + f / Real::from_integer(3));
-    [arc, circle].into_iter().find_map(|(turned, limit)| {
-        Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
-    })
+    let (turned, limit) =
+        (&f * h.cross(h_k).abs(), turn * &f + Real::from_integer(2) * aside + offset);
+    Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

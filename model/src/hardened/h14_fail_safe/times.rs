@@ -67,15 +67,11 @@ impl<'a> Driving<'a> {
         self.tau + (v_tau - squared.max(Real::zero()).sqrt()) / self.a_b
     }
 
-    /// The latest time at which it has driven no more than f < s_tyre(v), s.
+    /// The latest time at which it has driven no more than f < s_tyre(v), s: (v - sqrt(max(v^2 - 2 a_tyre f, 0))) / a_tyre.
     pub fn last(&self, f: &Real) -> Real {
-        self.braking_with(&a_tyre(self.a_b), f)
-    }
-
-    /// When it has driven f, braking at once with the deceleration a, s: (v - sqrt(max(v^2 - 2 a f, 0))) / a.
-    pub fn braking_with(&self, a: &Real, f: &Real) -> Real {
-        let squared = self.v.square() - two() * a * f;
-        (self.v - squared.max(Real::zero()).sqrt()) / a
+        let a_tyre = a_tyre(self.a_b);
+        let squared = self.v.square() - two() * &a_tyre * f;
+        (self.v - squared.max(Real::zero()).sqrt()) / a_tyre
     }
 }
 

@@ -9,6 +9,7 @@ use crate::hardened::h14_fail_safe::meeting::{BesideRoute, h, is_behind, wider};
 use crate::hardened::h14_fail_safe::motions::{Motion, origins};
 use crate::hardened::h14_fail_safe::path::{self, Place};
 use crate::hardened::h14_fail_safe::times::{Driving, a_tyre};
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
@@ -79,8 +80,8 @@ struct Extent {
 
 /// How far the rectangles of the path reach along h and across it.
 fn extents(scene: &Scene, trajectory: &[Point]) -> [Extent; 2] {
-    let ends = path::ends(scene, trajectory);
-    let path: Vec<Rectangle> = ends.iter().map(|pose| wider(scene, trajectory, pose)).collect();
+    let (ends, widening) = (path::ends(scene, trajectory), wider_by(scene, trajectory));
+    let path: Vec<Rectangle> = ends.iter().map(|pose| wider(scene, &widening, pose)).collect();
     let h_ego = &scene.ego.heading;
     [h_ego.clone(), h_ego.left()].map(|axis| {
         let sides = path.iter().map(|cav| (cav.frame.origin.dot(&axis), cav.half_extent(&axis)));

@@ -1,5 +1,6 @@
 //! H-14, `spec/hardened/H-14.md`: what no vector shows, in the three readings.
 
+mod excess;
 mod following;
 mod goes_along;
 mod meeting;
@@ -9,6 +10,7 @@ mod reach;
 mod road;
 mod route_bends;
 mod times;
+mod widening;
 
 use mufasa_model::input::cycle::{Cycle, Track};
 use mufasa_model::input::scene::Scene;

@@ -17,11 +17,11 @@ const NEAR: &[Near] = &[
         let sin = 0.17 + e;
         (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), -sin);
     }),
-    ("offset to the right <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
+    ("passing to the right <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
         c.ego.y = -0.5 - e;
     }),
-    ("offset to the left <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
-        (c.ego.x, c.ego.y) = (-1.0, 0.25 + e);
+    ("passing to the left <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
+        (c.ego.x, c.ego.y) = (0.5, 0.25 + e);
         c.parameters.lateral_tolerance = 0.25;
     }),
 ];

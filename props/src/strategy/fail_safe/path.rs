@@ -78,22 +78,11 @@ impl Path {
     /// That of a cycle, rounded.
     pub fn of(cycle: &Cycle) -> Self {
         let (p, ego) = (&cycle.parameters, &cycle.ego);
-        let first = cycle.trajectory.as_ref().and_then(|list| list.points.first());
-        let aside =
-            first.map_or(0.0, |it| ((ego.x - it.x) * it.sin - (ego.y - it.y) * it.cos).abs());
+        let places = places(cycle);
+        let aside = widening(cycle, &places);
         let (v, tau, a_max, a_b) = (ego.speed, p.tau, p.a_max, p.a_b);
         let (t_yield, a_yield) = (p.t_yield, p.a_yield);
-        Self {
-            places: places(cycle),
-            aside,
-            v,
-            tau,
-            a_max,
-            a_b,
-            a_tyre: a_tyre(p),
-            t_yield,
-            a_yield,
-        }
+        Self { places, aside, v, tau, a_max, a_b, a_tyre: a_tyre(p), t_yield, a_yield }
     }
 
     /// `s_b(v)`, m.
@@ -129,12 +118,7 @@ impl Path {
 
     /// The latest time at f below `s_tyre(v)`, s.
     pub fn last(&self, f: f64) -> f64 {
-        self.braking_with(self.a_tyre, f)
-    }
-
-    /// When the CAV is at f, braking with a, s.
-    pub fn braking_with(&self, a: f64, f: f64) -> f64 {
-        (self.v - (self.v * self.v - 2.0 * a * f).max(0.0).sqrt()) / a
+        (self.v - (self.v * self.v - 2.0 * self.a_tyre * f).max(0.0).sqrt()) / self.a_tyre
     }
 
     /// When the window of a place begins, s.
@@ -156,6 +140,43 @@ impl Path {
         let half = (0.5 * cycle.ego.length, 0.5 * cycle.ego.width + self.aside);
         Body { frame: Frame { x, y, ..pose }, half }
     }
+}
+
+/// How far aside, m, and how much turned a circle leads that the CAV can drive up to f (H-14.64).
+pub fn circle(cycle: &Cycle, f: f64) -> [f64; 2] {
+    let v = cycle.ego.speed;
+    let u = (v - cycle.parameters.a_b * f / v.max(1e-9)).max(0.5 * v);
+    let radius = (u * u / 11.5).max(3.0);
+    [0.5 * f * f / radius, f / radius]
+}
+
+/// How far the farther end of the CAV is from its reference point, m.
+pub fn lever(cycle: &Cycle) -> f64 {
+    cycle.ego.center_offset.abs() + 0.5 * cycle.ego.length
+}
+
+/// By how much half the CAV's width is greater, m (H-14.26).
+fn widening(cycle: &Cycle, places: &[Place]) -> f64 {
+    let ego = &cycle.ego;
+    let seen = |x: f64, y: f64| {
+        let away = (x - ego.x, y - ego.y);
+        (dot(away, (ego.cos, ego.sin)), dot(away, (-ego.sin, ego.cos)))
+    };
+    let of_place = |Place { pose, .. }: &Place| {
+        let (f, aside) = seen(pose.x, pose.y);
+        let [way, turn] = circle(cycle, f.abs());
+        let sine = (ego.cos * pose.sin - ego.sin * pose.cos).abs();
+        (aside.abs() - way).max(lever(cycle) * (sine - turn))
+    };
+    let points = cycle.trajectory.as_ref().map_or(&[][..], |list| &list.points);
+    let all = points.iter().map(|it| seen(it.x, it.y));
+    let others = all.clone().take_while(|&(f, _)| f <= 0.125);
+    let of_point = |(f, aside): (f64, f64)| aside.abs() - circle(cycle, f.abs())[0];
+    let passes = others.clone().last().zip(all.clone().find(|&(f, _)| f > 0.125));
+    let passes = passes.filter(|&((f_y, _), _)| f_y <= 0.0);
+    let passes = passes.map(|((f_y, y), (f_z, z))| ((y * f_z - z * f_y) / (f_z - f_y)).abs());
+    let excesses = others.map(of_point).chain(places.iter().skip(1).map(of_place));
+    excesses.chain(passes).fold(0.0, f64::max)
 }
 
 /// The places of a cycle, rounded.

@@ -1,11 +1,11 @@
-//! Paths at the bound of what tyres can do, and points that are nodes of the path, or just are not
+//! Paths at the bound of what the CAV can drive, and points that are nodes of the path, or just are not
 //! (`spec/hardened/H-14.md#requirements-reach`).
 
 use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
 
 use super::super::base;
 use super::super::draw::Draw;
-use super::path::Path;
+use super::path::{circle, lever};
 use super::shape;
 
 /// A slow CAV weaves, no more than a slide may be, and the path is about as long as it may be at `s_stop` (H-14.61).
@@ -20,11 +20,11 @@ fn long(draw: &mut Draw<'_>, cycle: &mut Cycle, side: f64) -> Vec<TrajectoryPoin
     [(0.0, 0.0, 0.0)].into_iter().chain((0..=moves).map(turn)).map(|it| point(cycle, it)).collect()
 }
 
-/// A heading that is turned about as far as one may be where it is (H-14.62), and back.
+/// A heading that is turned about as far as one may be where it is (H-14.62, H-14.64), and back.
 fn turned(draw: &mut Draw<'_>, cycle: &Cycle, side: f64) -> Vec<TrajectoryPoint> {
     let (first, aside) = (draw.pick(&[0.3, 0.7, 2.0, 4.0]), draw.pick(&[0.0, 0.1]));
-    let bound = f64::min((2.0 * aside + 0.5) / first, first / 3.0);
-    let sine = draw.near(0.17 + bound);
+    let swung = circle(cycle, first)[1] + cycle.parameters.lateral_tolerance / lever(cycle);
+    let sine = draw.near(f64::min(0.17 + (2.0 * aside + 0.5) / first, swung));
     let angle = sine.clamp(0.0, 1.0).asin();
     let turn = |k: i32| (first, aside, side * angle * (1.0 - f64::from(k.abs()) / 32.0));
     let start = [(0.0, 0.0, 0.0), (0.5 * first, 0.5 * aside, 0.0)];
@@ -42,8 +42,8 @@ fn point(cycle: &Cycle, (ahead, aside, turned): (f64, f64, f64)) -> TrajectoryPo
 /// A trajectory beside the CAV that one place of its path, or its first point, decides.
 pub fn cycle(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     cycle.route = base::road(shape::frame(cycle), 20.0);
-    (cycle.parameters.start_tolerance, cycle.parameters.lateral_tolerance) = (40.0, 20.0);
-    let path = Path::of(cycle);
+    (cycle.parameters.start_tolerance, cycle.parameters.lateral_tolerance) =
+        (40.0, draw.pick(&[0.5, 2.0]));
     let side = draw.pick(&[1.0, -1.0]);
     if draw.one_in(3) {
         let mut points =
@@ -54,17 +54,14 @@ pub fn cycle(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
         return;
     }
-    let bound =
-        |f: f64| 0.5 + 0.17 * f + 5.75 * path.braking_with(path.a_b, f.min(path.s_b())).powi(2);
-    let (first, aside) = match draw.below(4) {
-        // Ahead by 1/8 m: too far aside for that, or for nothing else.
-        0 => (draw.near(0.125), draw.pick(&[0.57, 0.3])),
-        // Where the CAV may stand, to which nothing binds it.
-        1 => (draw.near(path.s_b()).max(0.2), bound(path.s_b()) + 0.5),
-        _ => {
-            let first = draw.pick(&[0.2, 0.5, 0.9]) * path.s_b().max(0.3);
-            (first, draw.near(bound(first)))
-        }
+    let bound = |f: f64| cycle.parameters.lateral_tolerance + circle(cycle, f)[0];
+    let s_stop = base::s_stop(cycle);
+    let (first, aside) = if draw.below(3) == 0 {
+        // Ahead by 1/8 m.
+        (draw.near(0.125), draw.near(bound(0.125)))
+    } else {
+        let first = draw.pick(&[0.2, 0.5, 0.9]) * s_stop.max(0.3);
+        (first, draw.near(bound(first)))
     };
     let road = shape::frame(cycle);
     let step = draw.pick(&[0.9, 0.5]) * cycle.ego.length.min(4.0);

@@ -107,8 +107,9 @@ fn bend(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 
 /// A turn at a junction, which is farther than `s_stop` from the CAV before it is as far ahead.
 fn turn(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    (cycle.ego.speed, cycle.parameters.tau) = (draw.pick(&[4.0, 5.0]), 0.4);
-    let (side, radius) = (draw.pick(&[1.0, -1.0]), draw.pick(&[3.2, 3.4, 4.4]));
+    let (speed, radius) = draw.pick(&[(5.0, 5.0), (6.0, 6.0), (6.0, 6.5)]);
+    (cycle.ego.speed, cycle.parameters.tau) = (speed, 0.4);
+    let side = draw.pick(&[1.0, -1.0]);
     let (frame, now_ns) = (frame(cycle), cycle.now_ns);
     let point = |k: i64| {
         let way = 0.4 * k as f64;
@@ -127,6 +128,8 @@ fn turn(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 /// Headings to and fro, as far as H-11 lets each step turn, and points a little to either side.
 fn weave(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let (share, aside) = (draw.pick(&[0.95, 0.3]), draw.pick(&[0.0, 0.01]));
+    // The headings swing the front aside.
+    cycle.parameters.lateral_tolerance = 1.0;
     let frame = frame(cycle);
     let points = points(cycle);
     let turn = points.windows(2).map(|pair| {

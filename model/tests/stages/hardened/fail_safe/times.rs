@@ -27,9 +27,6 @@ fn times_and_distances_are_the_formulas() {
         // 64 + 8 f is 81 and 100; then 100 - 16 (f - 4.5) is 36 and 0, and less than 0 beyond.
         let first = [0.0, 17.0 / 8.0, 4.5, 8.5, 10.75, 11.0].map(|f| driving.first(&r(f)));
         assert_eq!(first, [0.0, 0.25, 0.5, 1.0, 1.75, 1.75].map(r));
-        // 64 - 16 f is 64, 16, 0.
-        let braking = [0.0, 3.0, 4.0, 4.5].map(|f| driving.braking_with(driving.a_b, &r(f)));
-        assert_eq!(braking, [0.0, 0.5, 1.0, 1.0].map(r));
     });
 }
 
