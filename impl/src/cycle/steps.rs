@@ -171,7 +171,7 @@ pub(crate) const fn looks_along(profile: Profile) -> bool {
 /// By how much half the CAV is wider at the places of stage v, m: where H-14 asks that, stage v does not run with more.
 fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
     let [h04, h14] = [HardenedRule::H04, HardenedRule::H14].map(|rule| cycle.profile.has(rule));
-    let aside = if h04 { widening::wider_by(cycle, points).magnitude() } else { 0.0 };
+    let aside = if h04 { widening::wider_by(cycle, points) } else { 0.0 };
     if h14 { smaller(aside, cycle.parameters.lateral_tolerance) } else { aside }
 }
 

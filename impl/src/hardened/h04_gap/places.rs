@@ -28,7 +28,7 @@ pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
 ) -> Places<'c, 'a> {
-    let more = 2.0 * wider_by(cycle, trajectory.points).magnitude();
+    let more = 2.0 * wider_by(cycle, trajectory.points);
     //
     // H-14.27; rounded up, and by nothing where it is 0
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };

@@ -141,7 +141,7 @@ fn reach(
     route: IndexedRoute<'_, '_>,
     hint: &mut usize,
 ) -> Option<(f64, f64)> {
-    let ([x, y], [cos, sin]) = (piece.plainly(k), piece.heading());
+    let ([x, y], [cos, sin]) = (piece.plainly(k, [0.0; 2]), piece.heading());
     let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
     let h = [ego.cos, ego.sin];
     let ([progress, _], [_, turned]) =

@@ -52,7 +52,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         trajectory: &'c [TrajectoryPoint],
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
-        let (cycle, aside) = (nodes.cycle, wider_by(nodes.cycle, trajectory).magnitude());
+        let (cycle, aside) = (nodes.cycle, wider_by(nodes.cycle, trajectory));
         // H-14.26: as wide as at the places, or by less than 1e-13 of it more.
         let width = (cycle.ego.width + 2.0 * aside) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));

@@ -4,6 +4,8 @@
 //! The places of a piece are taken with the node from which it leads, not with the one to which, so
 //! that all of them have one heading.
 
+use core::ops::ControlFlow::{self, Break, Continue};
+
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
 use crate::input::cycle::{Ego, TrajectoryPoint};
@@ -321,10 +323,10 @@ impl Piece {
         })
     }
 
-    /// Place k in plain doubles.
-    pub(crate) fn plainly(&self, k: i64) -> [f64; 2] {
-        let (share, [x, y]) = (self.share(k).value(), self.node.at);
-        [x + self.u.x.value() * share, y + self.u.y.value() * share]
+    /// Place k in plain doubles, from another point.
+    pub(crate) fn plainly(&self, k: i64, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (share, [node_x, node_y]) = (self.share(k).value(), self.node.at);
+        [(node_x - x) + self.u.x.value() * share, (node_y - y) + self.u.y.value() * share]
     }
 
     /// Whether it certainly does not reach `s_stop`, or where it does is known to 1e-6 m (MARGIN-18, MARGIN-19).
@@ -342,31 +344,6 @@ impl Piece {
         self.node.heading
     }
 
-    /// The greatest of `known` and of its places, or at most `negligible` less; `at_most`: of the first to the last of these.
-    pub(crate) fn greatest(
-        &self,
-        (mut known, negligible): (Real, f64),
-        at_most: impl Fn([i64; 2]) -> f64,
-        of: impl Fn(&Place) -> Real,
-    ) -> Real {
-        let count = self.count();
-        let (mut at, mut size) = (0_i64, count);
-        while at < count {
-            let end = at.saturating_add(size).min(count);
-            let last = end.saturating_sub(1);
-            if at_most([at, last]) <= known.value() + negligible {
-                at = end;
-                size = size.saturating_mul(2);
-            } else if last > at {
-                size = end.saturating_sub(at) >> 1;
-            } else {
-                known = known.max(of(&self.place(at)));
-                at = end;
-            }
-        }
-        known
-    }
-
     /// The first place where `find` finds something. `is_free`: whether it certainly finds nothing from
     /// the first to the last of these places.
     pub(crate) fn first_place<T>(
@@ -374,25 +351,33 @@ impl Piece {
         mut is_free: impl FnMut([i64; 2]) -> bool,
         mut find: impl FnMut(&Place) -> Option<T>,
     ) -> Option<T> {
+        let find = |(), k| find(&self.place(k)).map_or(Continue(()), Break);
+        self.over_places((), |(), run| is_free(run), find).break_value()
+    }
+
+    /// Goes over its places with `next`, except where `is_free` says that nothing changes from the first to the last of these.
+    pub(crate) fn over_places<T, B>(
+        &self,
+        mut so_far: T,
+        mut is_free: impl FnMut(&T, [i64; 2]) -> bool,
+        mut next: impl FnMut(T, i64) -> ControlFlow<B, T>,
+    ) -> ControlFlow<B, T> {
         let count = self.count();
         let (mut at, mut size) = (0_i64, count);
         while at < count {
             let end = at.saturating_add(size).min(count);
             let last = end.saturating_sub(1);
-            if is_free([at, last]) {
+            if is_free(&so_far, [at, last]) {
                 at = end;
                 size = size.saturating_mul(2);
             } else if last > at {
                 size = end.saturating_sub(at) >> 1;
             } else {
-                let found = find(&self.place(at));
-                if found.is_some() {
-                    return found;
-                }
+                so_far = next(so_far, at)?;
                 at = end;
             }
         }
-        None
+        Continue(so_far)
     }
 }
 

@@ -34,7 +34,8 @@ pub(crate) fn road_failure(
             let ends = piece.between(run, [0.0; 2]).map(|[x, y, _]| [x, y]);
             let is_one = run[0] == run[1];
             let is_known = is_one && piece.has_certain_end();
-            let place = || is_known.then(|| route.between(piece.plainly(run[0]))).flatten();
+            let place =
+                || is_known.then(|| route.between(piece.plainly(run[0], [0.0; 2]))).flatten();
             let found = route.plainly_between(ends, hint).or_else(place);
             hint = found.unwrap_or(hint);
             // H-14.58, A-04

@@ -21,7 +21,7 @@ fn widened(speed: f64, places: &[[f64; 2]], turned: f64) -> f64 {
         point(place, if index == 0 { turned } else { 0.0 })
     });
     let points = points.get(..places.len()).unwrap_or(&[]);
-    wider_by(&standing(speed, Parameters::default()), points).magnitude()
+    wider_by(&standing(speed, Parameters::default()), points)
 }
 
 /// F-59: the first heading turns the trajectory towards the CAV, or points behind the CAV lead away from it.
@@ -34,7 +34,7 @@ fn neither_the_first_heading_nor_points_behind_hide_that_the_trajectory_is_besid
         (&[[-2.65, 0.1], [0.0, -0.45]], 0.0),
     ] {
         let aside = widened(15.0, places, turned);
-        assert!((0.45..0.45 + 3e-9).contains(&aside), "{aside}: {places:?}");
+        assert!((0.45..0.45 + 4e-9).contains(&aside), "{aside}: {places:?}");
     }
     let tyres = |f: f64| f * f * 5.75 / (15.0 - 8.0 * f / 15.0) / (15.0 - 8.0 * f / 15.0);
     for (speed, places, expected) in [
@@ -51,7 +51,7 @@ fn neither_the_first_heading_nor_points_behind_hide_that_the_trajectory_is_besid
         (0.0, &[[-1.5, 0.5], [-1.0, 0.5], [0.0, 0.0]], 0.5 - 1.0 / 6.0),
     ] {
         let aside = widened(speed, places, 0.0);
-        assert!((aside - expected).abs() < 3e-9, "{aside}, not {expected}: {places:?}");
+        assert!((aside - expected).abs() < 4e-9, "{aside}, not {expected}: {places:?}");
     }
     assert!(widened(15.0, &[[0.0, 0.0], [1.0, 0.02], [4.0, 0.3]], 0.0) < 5e-3);
     assert!(widened(15.0, &[[0.0, 0.0], [1.0, 0.0], [4.0, 0.0]], 0.0).to_bits() == 0);
@@ -122,8 +122,8 @@ fn the_widening_is_that_of_the_text_and_never_less() {
             point(place, turned + random.number(wave))
         });
         let (made, text) = (wider_by(&cycle, &points), by_the_text(&cycle, &points));
-        let more = (made - text).value();
-        assert!(-1e-24 * at.max(1.0) <= more && more < 3e-9, "{more}: {cycle:?} {points:?}");
+        let more = (Real::new(made) - text).value();
+        assert!(-1e-24 * at.max(1.0) <= more && more < 4e-9, "{more}: {cycle:?} {points:?}");
         wide += i32::from(text.value() > 0.1);
         let straight = points.map(|it| TrajectoryPoint { cos, sin, ..it });
         swung += i32::from(by_the_text(&cycle, &straight).value() + 0.1 < text.value());
