@@ -24,8 +24,12 @@ pub(crate) fn wider_by(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
     // H-14.26
     let known = of_others.fold(passes(cycle, points), Real::max).magnitude();
     let of_lines = nodes.lines().map(|it| excess.at_most([it.from, it.to], it.heading));
-    let most = of_lines.fold(known, larger);
-    if most <= known + NEGLIGIBLE {
+    let (mut most, mut count) = (known, 0);
+    for (of_line, number) in of_lines.zip(1..) {
+        most = larger(most, of_line);
+        count = if of_line > known + NEGLIGIBLE { number } else { count };
+    }
+    if count == 0 {
         return most;
     }
     let p = [cycle.ego.x, cycle.ego.y];
@@ -41,7 +45,8 @@ pub(crate) fn wider_by(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
         let (Continue(known) | Break(known)) = piece.over_places(known, is_free, or_more);
         known
     };
-    Path::new(nodes).pieces().fold(known, of_piece) + MORE
+    // A piece is a line; behind these none has more.
+    Path::new(nodes).pieces().take(count).fold(known, of_piece) + MORE
 }
 
 /// How far aside of the CAV the trajectory passes it (H-14.65), m.
