@@ -6,6 +6,7 @@ pub mod order;
 pub mod steps;
 
 use crate::cycle::order::{Turn, decide, schedule};
+use crate::cycle::steps::looks_along;
 use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::places::{dilated_at_places, places_of};
@@ -16,6 +17,7 @@ use crate::hardened::h11_steps::step_failure;
 use crate::hardened::h14_fail_safe::FailSafe;
 use crate::hardened::h14_fail_safe::reach::reach_failure;
 use crate::hardened::h14_fail_safe::road::road_failure;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
@@ -161,15 +163,15 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
                 let seen = self.look_back(scratch);
                 self.i(seen, scratch)
             }
-            Stage::Ii => self.ii(),
+            Stage::Ii => self.ii(self.aside()),
             Stage::Iii => self.iii(),
             Stage::Iv => match self.look_back(scratch) {
                 Seen::Unclear(witness) if self.cycle.profile.has(HardenedRule::H14) => {
                     Ok(Some(witness))
                 }
-                seen => self.iv(seen, scratch),
+                seen => self.iv(seen, self.aside(), scratch),
             },
-            Stage::V => self.v(),
+            Stage::V => self.v(self.aside()),
         };
         outcome(found)
     }
@@ -213,7 +215,13 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         })
     }
 
-    fn ii(&self) -> Found {
+    /// By how much the CAV is wider at its places, m (H-14.26): stages ii, iv and v take it.
+    fn aside(&self) -> f64 {
+        let along = self.current.trajectory.filter(|_| looks_along(self.cycle.profile));
+        along.map_or(0.0, |trajectory| wider_by(self.cycle, trajectory.points))
+    }
+
+    fn ii(&self, aside: f64) -> Found {
         let (cycle, points) = (self.cycle, self.current.trajectory()?.points);
         let route = IndexedRoute::new(&cycle.route, self.indexes.route);
         let (found, all_inside) = trajectory_to_map(cycle, route, points);
@@ -225,7 +233,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             .or_else(|| if h07 && !all_inside { corridor_failure(route, points) } else { None })
             .or_else(|| if h07 { direction_failure(route, points) } else { None })
             .or_else(|| if h11 { step_failure(cycle, points) } else { None })
-            .or_else(|| if h14 { reach_failure(cycle, points) } else { None })
+            .or_else(|| if h14 { reach_failure(cycle, points, aside) } else { None })
             .or_else(|| if h14 { road_failure(cycle, route, points) } else { None }))
     }
 
@@ -236,17 +244,17 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     /// After `look_back`, which says what was seen.
-    fn iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
+    fn iv(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Found {
         let trajectory = self.current.trajectory()?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
         let lead = self.current.lead;
         let found = trajectory_with_detections(self.cycle, trajectory, detections, lead);
         // H-14.46
-        Ok(found.or_else(|| self.fail_safe(seen, scratch)))
+        Ok(found.or_else(|| self.fail_safe(seen, aside, scratch)))
     }
 
     /// Why the cycle fails at the place of stage iv, which does not run (H-04, H-14).
-    fn instead_of_iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+    fn instead_of_iv(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Option<Witness> {
         let Cycle { profile, configuration, .. } = *self.cycle;
         self.current.trajectory?;
         if configuration == Configuration::Local || !profile.runs(Stage::Iv) {
@@ -255,16 +263,17 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
         // H-04.2, H-14.46
         gap_failure(lead, |lead| s_react(self.cycle, lead) + s_since(self.cycle, lead))
-            .or_else(|| self.fail_safe(seen, scratch))
+            .or_else(|| self.fail_safe(seen, aside, scratch))
     }
 
     /// H-14, after `look_back`.
-    fn fail_safe(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+    fn fail_safe(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Option<Witness> {
         let examined = self.cycle.profile.has(HardenedRule::H14)
             && self.cycle.configuration != Configuration::Local;
         let rule = FailSafe {
             cycle: self.cycle,
             trajectory: self.current.trajectory.filter(|_| examined)?,
+            aside,
             tracks: self.current.tracks,
             history: &self.history,
             route: IndexedRoute::new(&self.cycle.route, self.indexes.route),
@@ -273,11 +282,11 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         rule.failure(scratch)
     }
 
-    fn v(&self) -> Found {
+    fn v(&self, aside: f64) -> Found {
         let (cycle, trajectory) = (self.cycle, self.current.trajectory()?);
         let grid = self.current.grid.ok_or(Input::Grid)?;
         let [h04, h06] = [HardenedRule::H04, HardenedRule::H06].map(|rule| cycle.profile.has(rule));
-        let places = if h04 { Some(places_of(cycle, trajectory)) } else { None };
+        let places = if h04 { Some(places_of(cycle, trajectory, aside)) } else { None };
         Ok(if h06 {
             closed_cells(cycle, grid, (trajectory, places.as_ref()), self.current.detections)
         } else {
@@ -318,7 +327,7 @@ impl<'c, 'a> Current<'c, 'a> {
 
 /// Runs the stages on valid input.
 fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
-    let seen = valid.look_back(scratch);
+    let (seen, aside) = (valid.look_back(scratch), valid.aside());
     let mut stages = [Outcome::NotScheduled; 5];
     let mut slots = stages.iter_mut();
     let Cycle { profile, configuration, .. } = *valid.cycle;
@@ -327,16 +336,16 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
         let outcome = match turn {
             Turn::Rest(idle) => idle.into(),
             Turn::Gap(idle) => {
-                let found = valid.instead_of_iv(seen, scratch);
+                let found = valid.instead_of_iv(seen, aside, scratch);
                 // H-04.4, H-14.47
                 found.map_or_else(|| idle.into(), Outcome::Failed)
             }
             Turn::Run => outcome(match stage {
                 Stage::I => valid.i(seen, scratch),
-                Stage::Ii => valid.ii(),
+                Stage::Ii => valid.ii(aside),
                 Stage::Iii => valid.iii(),
-                Stage::Iv => valid.iv(seen, scratch),
-                Stage::V => valid.v(),
+                Stage::Iv => valid.iv(seen, aside, scratch),
+                Stage::V => valid.v(aside),
             }),
         };
         if let Some(slot) = slots.next() {

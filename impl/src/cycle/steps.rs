@@ -3,11 +3,10 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::{Times, longest};
-use crate::hardened::h14_fail_safe::widening;
+use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
-use crate::numbers::range::smaller;
 
 /// Steps of H-14: a motion, the boxes around stretches of the path, a walk along the path, an object in numbers with error
 /// bounds.
@@ -69,7 +68,7 @@ pub(crate) const LISTS: [List; 7] = [
 
 impl Counts {
     /// Memory for so many tracks, detections, cross sections and stations, and what it does not bound as it usually is: 128
-    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks, on its plan.
+    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks, with H-14 0.5 m beside its plan.
     pub(crate) fn lent(profile: Profile, lent: [usize; 4]) -> Self {
         let [tracks, detections, cross_sections, stations] = lent.map(count);
         Self {
@@ -80,7 +79,7 @@ impl Counts {
             cross_sections: cross_sections.min(8192),
             stations,
             places: if looks_along(profile) { 448 } else { 0 },
-            disk_rows: 18,
+            disk_rows: if profile.has(HardenedRule::H14) { 22 } else { 18 },
             cav_rows: 31,
             way_rows: 1052,
         }
@@ -109,8 +108,7 @@ impl Counts {
             let ego = &cycle.ego;
             let disks = f64::from(i32::try_from(cycle.parameters.n).unwrap_or(i32::MAX));
             let part = ego.length / disks;
-            // H-14.27
-            let width = ego.width + 2.0 * widening(cycle, points);
+            let width = ego.width + 2.0 * most_wider(cycle, points);
             let across = libm::sqrt(part * part + width * width);
             let rows = |metres: f64| whole(metres / grid.resolution + 6.0);
             counts.disk_rows = rows(across);
@@ -168,11 +166,12 @@ pub(crate) const fn looks_along(profile: Profile) -> bool {
     profile.has(HardenedRule::H04) || profile.has(HardenedRule::H14)
 }
 
-/// By how much half the CAV is wider at the places of stage v, m: where H-14 asks that, stage v does not run with more.
-fn widening(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
-    let [h04, h14] = [HardenedRule::H04, HardenedRule::H14].map(|rule| cycle.profile.has(rule));
-    let aside = if h04 { widening::wider_by(cycle, points) } else { 0.0 };
-    if h14 { smaller(aside, cycle.parameters.lateral_tolerance) } else { aside }
+/// By how much half the CAV is wider at places of stage v at most, m (H-14.27): with H-14, stage ii fails above the tolerance.
+fn most_wider(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
+    if cycle.profile.has(HardenedRule::H14) {
+        return cycle.parameters.lateral_tolerance;
+    }
+    if cycle.profile.has(HardenedRule::H04) { wider_by(cycle, points) } else { 0.0 }
 }
 
 /// So many messages, offers, ticks and other events count between two cycles.

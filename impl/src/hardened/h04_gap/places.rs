@@ -3,7 +3,6 @@
 
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::v_grid_map::DilatedCells;
@@ -23,12 +22,13 @@ pub(crate) struct Places<'c, 'a> {
     pub(crate) wide: Cycle<'a>,
 }
 
-/// Those of a trajectory.
+/// Those of a trajectory, of a CAV that is wider by so much on each side, m.
 pub(crate) fn places_of<'c, 'a>(
     cycle: &'c Cycle<'a>,
     trajectory: &Trajectory<'a>,
+    aside: f64,
 ) -> Places<'c, 'a> {
-    let more = 2.0 * wider_by(cycle, trajectory.points);
+    let more = 2.0 * aside;
     //
     // H-14.27; rounded up, and by nothing where it is 0
     let width = if more > 0.0 { (cycle.ego.width + more) * UP } else { cycle.ego.width };

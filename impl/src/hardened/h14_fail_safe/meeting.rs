@@ -12,7 +12,6 @@ use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::path::{Path, Piece, Place, Start};
 use crate::hardened::h14_fail_safe::spot::Spot;
-use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::hardened::h14_fail_safe::work::Work;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
@@ -50,9 +49,10 @@ impl<'c, 'a> Meeting<'c, 'a> {
     pub(super) fn new(
         nodes: Nodes<'c, 'a>,
         trajectory: &'c [TrajectoryPoint],
+        aside: f64,
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
-        let (cycle, aside) = (nodes.cycle, wider_by(nodes.cycle, trajectory));
+        let cycle = nodes.cycle;
         // H-14.26: as wide as at the places, or by less than 1e-13 of it more.
         let width = (cycle.ego.width + 2.0 * aside) * (1.0 + 1e-15);
         let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));

@@ -33,6 +33,8 @@ use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 pub(crate) struct FailSafe<'c, 'a> {
     pub(crate) cycle: &'c Cycle<'a>,
     pub(crate) trajectory: &'c Trajectory<'a>,
+    /// By how much the CAV is wider at its places, m.
+    pub(crate) aside: f64,
     pub(crate) tracks: Option<&'c TrackList<'a>>,
     pub(crate) history: &'c DetectionHistory<'c, 'a>,
     pub(crate) route: IndexedRoute<'c, 'a>,
@@ -44,7 +46,7 @@ impl FailSafe<'_, '_> {
     /// Why stage iv fails, or the cycle in its place, if it does. After `look_back`, which left in the
     /// scratch what the CAV saw of the tracks.
     pub(crate) fn failure(&self, scratch: &mut Scratch<'_>) -> Option<Witness> {
-        let &Self { cycle, trajectory, tracks, history, .. } = self;
+        let &Self { cycle, trajectory, aside, tracks, history, .. } = self;
         let detections = history.detections;
         let objects = tracks.map_or(0, |list| list.items.len());
         let detected = detections.map_or(0, |list| list.items.len());
@@ -59,7 +61,7 @@ impl FailSafe<'_, '_> {
         }
         let explained = Explained::new(history, tracks, scratch);
         let mut motions = Motions {
-            meeting: Meeting::new(nodes, trajectory.points, self.route),
+            meeting: Meeting::new(nodes, trajectory.points, aside, self.route),
             history,
             lists: Lists::new(cycle, history, tracks),
             explained: &explained,

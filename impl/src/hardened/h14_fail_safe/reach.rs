@@ -18,25 +18,30 @@ const ASIDE: f64 = 0.5;
 const TURNED: f64 = 0.17;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
-/// without that stage ii of W1 and W2 takes a third more instructions.
-pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+/// without that stage ii of W1 and W2 takes a third more instructions. `aside`: not below any excess, m.
+pub(crate) fn reach_failure(
+    cycle: &Cycle<'_>,
+    points: &[TrajectoryPoint],
+    aside: f64,
+) -> Option<Witness> {
     let (nodes, plain) = (Nodes::new(cycle, points), Plain::new(cycle));
     let (excess, p) = (Excess::new(cycle), [cycle.ego.x, cycle.ego.y]);
     let tolerance = Real::new(cycle.parameters.lateral_tolerance);
+    let may_exceed = aside > cycle.parameters.lateral_tolerance;
     let failure = |excess: Real| {
         // H-14.15
         let witness = || Witness::of(Rule::Reach, [excess, tolerance].map(Real::value));
-        (!excess.certainly_at_most(tolerance)).then(witness)
+        (may_exceed && !excess.certainly_at_most(tolerance)).then(witness)
     };
     let mut others = nodes.others(points).iter().enumerate();
-    let aside = others.find_map(|(index, point)| {
+    let beyond = others.find_map(|(index, point)| {
         failure(excess.of_point(point)).map(|witness| witness.at_point(index))
     });
-    if aside.is_some() {
-        return aside;
+    if beyond.is_some() {
+        return beyond;
     }
     let holds = |ends: [[f64; 2]; 2], heading: [f64; 2], length: f64| {
-        excess.at_most(ends, heading) + 1e-6 < tolerance.value()
+        (!may_exceed || excess.at_most(ends, heading) + 1e-6 < tolerance.value())
             && plain.is_short(length)
             && plain.is_along(ends, heading)
     };
