@@ -12,7 +12,7 @@ use mufasa::input::profile::Profile;
 use mufasa::report::{Outcome, Rule, Stage};
 
 /// Their names, and what is run: a stage, or the checks of the input.
-pub const INPUTS: [(&str, Option<Stage>); 24] = [
+pub const INPUTS: [(&str, Option<Stage>); 25] = [
     ("ids", None),
     ("crowd", None),
     ("assignment", Some(Stage::I)),
@@ -27,6 +27,7 @@ pub const INPUTS: [(&str, Option<Stage>); 24] = [
     ("along-route", Some(Stage::Ii)),
     ("on-a-line", Some(Stage::Ii)),
     ("at-rest", Some(Stage::Ii)),
+    ("wide", Some(Stage::Ii)),
     ("edge", Some(Stage::Ii)),
     ("tracks", Some(Stage::Iii)),
     ("detections", Some(Stage::Iv)),
@@ -165,8 +166,8 @@ pub fn input(name: &str, size: u32, run: &mut dyn FnMut(Option<Stage>, &Cycle<'_
     run(&cycle);
 }
 
-/// Inputs like those that `slow` found.
-const FOUND: [&str; 4] = ["as-far", "at-rest", "touching", "coming"];
+/// Inputs like those that `slow` found, and one that the widening walks along.
+const FOUND: [&str; 5] = ["as-far", "at-rest", "wide", "touching", "coming"];
 
 fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>)) {
     let Ego { x, y, .. } = base.ego;
@@ -189,6 +190,13 @@ fn found(name: &str, size: u32, base: &Cycle<'_>, run: &mut dyn FnMut(&Cycle<'_>
             let points =
                 timed(places(size, 1e-3).map(|along| point(x + along, y + 1e-7)).collect());
             let ego = Ego { speed: 0.0, ..base.ego };
+            run(&Cycle { ego, trajectory: Some(trajectory(&points)), ..*base });
+        }
+        // Along what the CAV can drive, on a circle of 3 m: each place is beyond it by more than those before.
+        "wide" => {
+            let way = |f: f64| point(x + f, y + f * f / 6.0 + 1e-6 * f);
+            let points = timed(places(size, 4.0 / f64::from(size)).map(way).collect());
+            let ego = Ego { speed: 5.0, ..base.ego };
             run(&Cycle { ego, trajectory: Some(trajectory(&points)), ..*base });
         }
         // Tracks that stand 6 nm beside all places, so that each place is asked about.

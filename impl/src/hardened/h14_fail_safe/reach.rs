@@ -41,9 +41,9 @@ pub(crate) fn reach_failure(
         return beyond;
     }
     let holds = |ends: [[f64; 2]; 2], heading: [f64; 2], length: f64| {
-        (!may_exceed || excess.at_most(ends, heading) + 1e-6 < tolerance.value())
-            && plain.is_short(length)
+        plain.is_short(length)
             && plain.is_along(ends, heading)
+            && (!may_exceed || excess.at_most(ends, heading) + 1e-6 < tolerance.value())
     };
     if nodes.lines().all(|it| holds([it.from, it.to], it.heading, it.length + it.more)) {
         return None;

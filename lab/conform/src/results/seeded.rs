@@ -14,9 +14,6 @@ const LIKELY: u64 = 99;
 /// So many bugs that are less likely found are named with their chances.
 const NAMED: usize = 5;
 
-/// Said of a number that was measured with other cases or vectors than those of today.
-const OLDER: &str = " (OLD: measured with others)";
-
 /// What was measured, as far as it is read here.
 #[derive(Clone, Debug, Deserialize)]
 struct Record {
@@ -24,12 +21,6 @@ struct Record {
     seeds: u64,
     /// Cases of each seed.
     most: u64,
-    /// Profiles whose random cases have changed since the bugs were measured with them.
-    #[serde(default)]
-    older_cases: Vec<String>,
-    /// Whether the vectors have.
-    #[serde(default)]
-    older_vectors: bool,
     bugs: Vec<Bug>,
 }
 
@@ -79,15 +70,12 @@ fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
     let by_cases = |bug: &&&Bug| bug.chance(cases) >= LIKELY;
     let mut ways = Vec::new();
     if campaign.vectors > 0 {
-        let older = if record.older_vectors { OLDER } else { "" };
-        ways.push(format!("the vectors find {}{older}", bugs.iter().filter(by_vectors).count()));
+        ways.push(format!("the vectors find {}", bugs.iter().filter(by_vectors).count()));
     }
     if cases > 0 {
         let (count, seeds) = (bugs.iter().filter(by_cases).count(), record.seeds);
-        let is_older = record.older_cases.contains(&campaign.profile);
-        let older = if is_older { OLDER } else { "" };
         ways.push(format!(
-            "{cases} random cases find {count} with a chance of at least {LIKELY} % (seeds: {seeds}){older}"
+            "{cases} random cases find {count} with a chance of at least {LIKELY} % (seeds: {seeds})"
         ));
     }
     let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
@@ -125,7 +113,7 @@ fn least_likely(bugs: &[&Bug], cases: u64) -> String {
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use serde_json::{Value, json};
+    use serde_json::Value;
 
     use super::*;
     use crate::cases::generate::Generator;
@@ -175,9 +163,7 @@ mod tests {
             let [all, by_vectors, by_cases] = counts(profile, names, cases);
             let said = words(&summary(campaign(profile, kinds, 100, cases))).expect("a clean run");
             assert!(said.contains(&format!("of {all} bugs seeded")), "{said}");
-            let record: Record = serde_json::from_str(RECORD).expect("the record");
-            let older = if record.older_vectors { OLDER } else { "" };
-            assert!(said.contains(&format!("the vectors find {by_vectors}{older},")), "{said}");
+            assert!(said.contains(&format!("the vectors find {by_vectors},")), "{said}");
             let cases = cases.min(10_000);
             assert!(
                 said.contains(&format!(" {cases} random cases find {by_cases} with")),
@@ -284,12 +270,10 @@ mod tests {
                 let generator = Generator { seed, profile, kinds: Kind::USUAL.into() };
                 (0..150).map(move |case| generator.question(case).line(&format!("c-{case}")))
             });
-            let older = record["older_cases"].as_array().expect("profiles");
             assert_eq!(
-                record["generators"][name] != digest(cases),
-                older.contains(&json!(name)),
-                "the generators of `mufasa conform` have changed since its seeded bugs were measured, and the record does \
-                 not say so, or it does and they have not; \
+                record["generators"][name],
+                digest(cases),
+                "the generators of `mufasa conform` have changed since its seeded bugs were measured; \
                  examples/conformance/campaign --bugs ... --write measures those of a profile anew"
             );
         }
@@ -299,11 +283,10 @@ mod tests {
             given.into_iter().map(|it| it.question.line(&it.id))
         });
         assert_eq!(
-            json!(record["vectors_asked"] != digest(vectors)),
-            record["older_vectors"],
-            "the vectors of `mufasa conform` have changed since its seeded bugs were measured, and the record does not say \
-             so, or it does and they have not; \
-             examples/conformance/campaign --vectors --write measures that anew (two minutes on two free cores)"
+            record["vectors_asked"],
+            digest(vectors),
+            "the vectors of `mufasa conform` have changed since its seeded bugs were measured; \
+             examples/conformance/campaign --vectors --write measures that anew (two minutes)"
         );
     }
 
@@ -314,13 +297,7 @@ mod tests {
             bug("written", 2, &[None, None]),
             bug("drawn", 0, &[Some(1), Some(100)]),
         ];
-        let record = Record {
-            seeds: 2,
-            most: 1000,
-            older_cases: vec!["hardened".into()],
-            older_vectors: false,
-            bugs,
-        };
+        let record = Record { seeds: 2, most: 1000, bugs };
         let say = |vectors, cases| {
             of_record(&record, &campaign("paper", &[Kind::Cycle], vectors, cases)).expect("words")
         };
@@ -339,13 +316,6 @@ mod tests {
         assert!(say(0, 100).ends_with("\nfound in neither way: hidden, written"));
         assert!(!say(0, 100).contains("vectors") && !say(5, 0).contains("random"));
         assert_eq!(of_record(&record, &campaign("hardened", &[Kind::Cycle], 5, 100)), None);
-        let older = Record { older_cases: vec!["paper".into()], older_vectors: true, ..record };
-        let words = of_record(&older, &campaign("paper", &[Kind::Cycle], 5, 100)).expect("words");
-        for part in
-            ["find 1 (OLD: measured with others), 100", "(seeds: 2) (OLD: measured with others);"]
-        {
-            assert!(words.contains(part), "{words}");
-        }
     }
 
     /// What is not named is counted, and what is found with every seed is not among it.
