@@ -30,6 +30,7 @@ mod stamps;
 mod style;
 #[path = "../tree/mod.rs"]
 mod tree;
+mod workflows;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -119,6 +120,12 @@ fn no_package_outside_of_lab_needs_one_in_it() {
 #[test]
 fn the_changelog_begins_with_the_version() {
     judge(&packages::changes_of_another_version(&Tree::here()), &[]);
+}
+
+/// A workflow that nobody names is run by nobody by hand.
+#[test]
+fn the_workflows_call_what_is_named_and_what_is_left_to_the_night() {
+    judge(&workflows::wrong(&Tree::here()), &[]);
 }
 
 /// What is told of misuse is tested.

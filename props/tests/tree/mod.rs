@@ -9,8 +9,8 @@ use std::path::Path;
 pub struct Tree(pub BTreeMap<String, String>);
 
 /// What is read; other files are known by name alone.
-const TEXT: [&str; 10] =
-    ["rs", "md", "toml", "jsonl", "gitignore", "svg", "c", "py", "lock", "yaml"];
+const TEXT: [&str; 12] =
+    ["rs", "md", "toml", "jsonl", "gitignore", "svg", "c", "py", "lock", "yaml", "yml", "run"];
 
 impl Tree {
     /// The repository, without what is built, downloaded or hidden.
