@@ -8,7 +8,7 @@
 #include "mufasa.h"
 
 #define MS INT64_C(1000000)
-/* As docs/configuration.md advises. At 100 ms it asks for a tau of 0.4 s and a dt_max of 220 ms. */
+/* As docs/configuration.md advises. */
 #define PERIOD_MS 50
 #define SECOND (1000 / PERIOD_MS) /* cycles */
 #define CYCLES (20 * SECOND)
@@ -69,7 +69,6 @@ static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
 static struct MufasaMonitor *make_monitor(void) {
   struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
-  settings.requester.dt_max_ns = 120 * MS; /* two periods and the jitter: one lost message ends no session */
   settings.stages.tau = 0.25; /* from now of a cycle to braking with a_b: docs/assumptions.md, A-07 */
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);

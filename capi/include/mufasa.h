@@ -872,9 +872,8 @@ typedef struct MufasaMonitorSettings {
   // Times of the requester.
   struct MufasaRequesterParameters requester;
   // The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
-  // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
-  // periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. In the
-  // hardened profile `stages.tau`, in seconds, has to be at least 2.5 of it, unless less is meant.
+  // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. The default,
+  // two periods and 20 ms of jitter, bears one lost message. In the hardened profile `stages.tau`, in seconds, has to be at least 2.5 of it, unless less is meant.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
@@ -1127,7 +1126,7 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
                           size_t scratch_bytes,
                           struct MufasaReport *report);
 
-// The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
+// The hardened profile, a `tau` of three periods and 0.1 s, a `dt_max` of two periods and 20 ms, and else the paper's values in a first life, for 8 stations, 128 tracks, 128 points,
 // 256 detections and 528 cross sections.
 struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
 

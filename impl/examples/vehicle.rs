@@ -17,7 +17,7 @@ use mufasa::offloading::requester::{
 };
 use mufasa::services::configuration::Configuration;
 
-/// As `docs/configuration.md` advises. At 100 ms it asks for a `tau` of 0.4 s and a `dt_max` of 220 ms.
+/// As `docs/configuration.md` advises.
 const PERIOD: Duration = Duration::from_millis(50);
 /// Cycles in a second, and in the whole loop.
 const SECOND: i64 = 20;
@@ -30,8 +30,6 @@ const LOST: i64 = 2 * SECOND;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = Settings::new(PERIOD);
-    // Two periods and the largest jitter: one lost message does not end a session.
-    settings.requester.dt_max_ns = 120_000_000;
     // From `now` of a cycle to braking with a_b (docs/assumptions.md, A-07).
     settings.stages.tau = 0.25;
     let route = road();

@@ -23,9 +23,8 @@ pub struct MufasaMonitorSettings {
     /// Times of the requester.
     pub requester: MufasaRequesterParameters,
     /// The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
-    /// `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. Two
-    /// periods and the largest jitter bear one lost message; the default, 100 ms, is the paper's. In the
-    /// hardened profile `stages.tau`, in seconds, has to be at least 2.5 of it, unless less is meant.
+    /// `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. The default,
+    /// two periods and 20 ms of jitter, bears one lost message. In the hardened profile `stages.tau`, in seconds, has to be at least 2.5 of it, unless less is meant.
     pub period_ns: i64,
     /// At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
     /// numbered on from here, so that no message of an earlier life fits.
@@ -55,16 +54,17 @@ pub struct MufasaMonitorSettings {
     pub most_cross_sections: usize,
 }
 
-/// The hardened profile, a `tau` of three periods and 0.1 s, and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
+/// The hardened profile, a `tau` of three periods and 0.1 s, a `dt_max` of two periods and 20 ms, and else the paper's values in a first life, for 8 stations, 128 tracks, 128 points,
 /// 256 detections and 528 cross sections.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonitorSettings {
     // A period below 0 is refused later.
     let period = Duration::from_nanos(u64::try_from(period_ns).unwrap_or(0));
+    let settings = Settings::new(period);
     MufasaMonitorSettings {
         profile: MufasaProfile::Hardened as u32,
-        stages: Settings::new(period).stages.into(),
-        requester: mufasa::offloading::requester::Parameters::default().into(),
+        stages: settings.stages.into(),
+        requester: settings.requester.into(),
         period_ns,
         sessions_before: 0,
         check_time_ns: 15_000_000,

@@ -52,17 +52,19 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The hardened profile and the defaults of the paper, in a first life. The default of
-    /// `dt_max_ns`, 100 ms, is for periods below it; for others choose a larger one. `stages.tau` is three periods and
-    /// 0.1 s for the brake: the vehicle's own is to be measured. Source: `spec/4-arithmetic.md#usual-settings`.
+    /// The hardened profile and the defaults of the paper, in a first life, with two exceptions. `requester.dt_max_ns`
+    /// is two periods and 20 ms of jitter: one lost message ends no session. `stages.tau` is three periods and 0.1 s for
+    /// the brake: the vehicle's own is to be measured. Source: `spec/monitor.md#monitor`.
     pub fn new(period: Duration) -> Self {
         let tau = period.saturating_mul(3).saturating_add(Duration::from_millis(100));
         // DOM-02
         let tau = tau.min(Duration::from_secs(60)).as_secs_f64();
+        let dt_max = period.saturating_mul(2).saturating_add(Duration::from_millis(20));
+        let dt_max_ns = i64::try_from(dt_max.as_nanos()).unwrap_or(i64::MAX);
         Self {
             profile: Profile::HARDENED,
             stages: Parameters { tau, ..Parameters::default() },
-            requester: requester::Parameters::default(),
+            requester: requester::Parameters { dt_max_ns, ..requester::Parameters::default() },
             period,
             sessions_before: 0,
             supervise_local: false,

@@ -31,7 +31,7 @@ from mufasa import (
     VerifiedTrajectory,
 )
 
-# As docs/configuration.md advises. At 100 ms it asks for a tau of 0.4 s and a dt_max of 220 ms.
+# As docs/configuration.md advises.
 PERIOD = timedelta(milliseconds=50)
 BUILD_UP = timedelta(milliseconds=100)  # from the command to full braking, the vehicle's own
 # Cycles.
@@ -42,8 +42,7 @@ LOST = 2 * SECOND  # the cycle whose messages are lost
 
 def main() -> None:
     # From now of a cycle to braking with a_b (docs/assumptions.md, A-07).
-    # dt_max: two periods and the largest jitter, so that one lost message ends no session.
-    monitor = Monitor(PERIOD, parameters={"tau": 0.25, "dt_max_ns": 120_000_000})
+    monitor = Monitor(PERIOD, parameters={"tau": 0.25})
     # A straight road of 300 m, 6 m wide.
     road = [CrossSection(x, 0.0, (x, 3.0), (x, -3.0)) for x in range(-50, 260, 10)]
     monitor.set_route(road)

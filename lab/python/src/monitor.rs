@@ -36,8 +36,8 @@ const MOST_STATIONS: usize = 65_536;
 /// are out of reach until ``cycle`` has checked them.
 ///
 /// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single
-/// defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to be
-/// above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session
+/// defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, two periods and 20 ms by
+/// default, has to be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session
 /// of earlier lives, so that no message of one fits. ``most_stations``: that ever offer something, at most 65,536.
 /// ``check_time``: how long a cycle may take, any time where it is not given; it has memory for all of the domain.
 /// ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
@@ -87,6 +87,7 @@ impl Monitor {
             let mut object: Map<_, _> = serde_json::from_str(&json.extract::<String>()?)
                 .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
             object.entry("tau").or_insert_with(|| settings.stages.tau.into());
+            object.entry("dt_max_ns").or_insert_with(|| settings.requester.dt_max_ns.into());
             let (stages, requester) =
                 record::parameters::settings(object).map_err(|it| invalid(named(it)))?;
             settings.stages = bridge::cycle_parameters(&stages);

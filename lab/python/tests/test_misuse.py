@@ -331,7 +331,6 @@ def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
 @pytest.mark.parametrize(
     ("settings", "field"),
     [
-        ({"parameters": {}}, "dt_max_ns"),
         ({"parameters": {"dt_max_ns": 100_000_000}}, "dt_max_ns"),
         ({"parameters": {"dt_max_ns": -1}}, "parameters.dt_max_ns"),
         ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.1}}, "tau"),

@@ -15,7 +15,6 @@ fn told(change: impl FnOnce(&mut MufasaMonitorSettings)) -> (String, [f64; 3]) {
 /// With the message.
 fn all(change: impl FnOnce(&mut MufasaMonitorSettings)) -> (String, [f64; 3], String) {
     let mut settings = mufasa_monitor_settings_default(50_000_000);
-    settings.requester.dt_max_ns = 120_000_000;
     change(&mut settings);
     let (_, told) = checked(&settings);
     let [field, message] = [told.field, told.message].map(|it| {
