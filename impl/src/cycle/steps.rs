@@ -68,7 +68,7 @@ pub(crate) const LISTS: [List; 7] = [
 
 impl Counts {
     /// Memory for so many tracks, detections, cross sections and stations, and what it does not bound as it usually is: 128
-    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks, with H-14 0.5 m beside its plan.
+    /// points, the 430 places straight on at 30 m/s with a tau of 0.25 s and a point each 0.1 s, and cells of 0.2 m under a car of 4.8 m by 1.9 m in four disks, 0.5 m beside its plan where a rule looks at places.
     pub(crate) fn lent(profile: Profile, lent: [usize; 4]) -> Self {
         let [tracks, detections, cross_sections, stations] = lent.map(count);
         Self {
@@ -79,7 +79,7 @@ impl Counts {
             cross_sections: cross_sections.min(8192),
             stations,
             places: if looks_along(profile) { 448 } else { 0 },
-            disk_rows: if profile.has(HardenedRule::H14) { 22 } else { 18 },
+            disk_rows: if looks_along(profile) { 22 } else { 18 },
             cav_rows: 31,
             way_rows: 1052,
         }
