@@ -12,6 +12,7 @@
 #define PERIOD_MS 50
 #define SECOND (1000 / PERIOD_MS) /* cycles */
 #define CYCLES (20 * SECOND)
+#define TAU (250 * MS)
 #define BUILD_UP (100 * MS) /* from the command to full braking, the vehicle's own */
 #define LOST (2 * SECOND) /* the cycle whose messages are lost */
 #define CARS 2
@@ -69,7 +70,7 @@ static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
 static struct MufasaMonitor *make_monitor(void) {
   struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
-  settings.stages.tau = 0.25; /* from now of a cycle to braking with a_b: docs/assumptions.md, A-07 */
+  settings.stages.tau = TAU / 1e9; /* from now of a cycle to braking with a_b: docs/assumptions.md, A-07 */
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);
   check(mufasa_monitor_init(&settings, malloc(bytes), bytes, &monitor), "a monitor");
@@ -150,9 +151,9 @@ int main(void) {
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
   size_t offloaded = 0, copied = 0, advised = 0;
-  struct MufasaTrajectoryPoint kept[POINTS]; /* of the last verified trajectory */
+  struct MufasaTrajectoryPoint kept[POINTS]; /* what was followed last, verified or its own */
   size_t kept_len = 0;
-  struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of the last verified trajectory */
+  struct MufasaTime brake_by = mufasa_time_from_nanoseconds(INT64_MAX); /* of that */
   for (int cycle = 0; cycle < CYCLES; ++cycle) {
     /* The period after the loss comes 1 ms late, which a dt_max of two periods alone would not bear. */
     const struct MufasaTime now = mufasa_time_from_milliseconds(PERIOD_MS * cycle + (cycle == LOST + 1));
@@ -187,6 +188,8 @@ int main(void) {
 
     /* The one way to what the station sent. */
     struct MufasaDecision decision;
+    struct MufasaRequesterState state; /* before the cycle */
+    check(mufasa_monitor_state(monitor, &state), "the state");
     /* Not OK: inputs of this program that nobody can check. It counts as unsafe, and the vehicle drives on. */
     const MufasaStatus status = mufasa_monitor_cycle(monitor, now, &w.inputs, &decision);
     if (status != MUFASA_STATUS_OK) fprintf(stderr, "a cycle: %s\n", mufasa_status_text(status));
@@ -202,7 +205,12 @@ int main(void) {
       kept_len = decision.trajectory->points_len;
       if (kept_len > POINTS) return 1;
       memcpy(kept, decision.trajectory->points, kept_len * sizeof *kept);
-    } else if (!has_plan && now.ns + BUILD_UP < brake_by.ns) { /* were MOT alone remote: also with an own plan (MON-42) */
+    } else if (has_plan && state.configuration == MUFASA_CONFIGURATION_LOCAL) { /* MON-67: of no other cycle */
+      brake_by.ns = now.ns + TAU;
+      kept_len = w.inputs.local_trajectory->points_len;
+      if (kept_len > POINTS) return 1;
+      memcpy(kept, w.inputs.local_trajectory->points, kept_len * sizeof *kept);
+    } else if (now.ns + BUILD_UP < brake_by.ns) {
       /* No other is there, also after an unsafe cycle: it drives to the next point of the copy. By its brake_by the
          CAV brakes fully; control, which runs more often than cycles do, looks at that time itself. */
       size_t next = 0;

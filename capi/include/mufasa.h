@@ -1013,8 +1013,8 @@ typedef struct MufasaDecision {
   // profile, the CAV has current detections: that of the station, or while MOT alone is remote that of the CAV's own
   // planner; else null.
   const struct MufasaTrajectory *trajectory;
-  // By when control has to brake along the trajectory, with at least `a_b`, unless a later cycle has given one or, except while MOT
-  // alone is remote, there is a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
+  // By when control has to brake along the trajectory, with at least `a_b`, unless a later cycle has given one or, at
+  // a cycle in LOCAL, there is a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
   // the paper profile.
   struct MufasaTime brake_by;
   // Releases to be sent, and local services that start or stop.

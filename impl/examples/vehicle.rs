@@ -19,6 +19,7 @@ use mufasa::services::configuration::Configuration;
 
 /// As `docs/configuration.md` advises.
 const PERIOD: Duration = Duration::from_millis(50);
+const TAU: Duration = Duration::from_millis(250);
 /// Cycles in a second, and in the whole loop.
 const SECOND: i64 = 20;
 const CYCLES: i64 = 20 * SECOND;
@@ -31,7 +32,7 @@ const LOST: i64 = 2 * SECOND;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = Settings::new(PERIOD);
     // From `now` of a cycle to braking with a_b (docs/assumptions.md, A-07).
-    settings.stages.tau = 0.25;
+    settings.stages.tau = TAU.as_secs_f64();
     let route = road();
     let memory = Memory {
         stations: &mut [StationRecord::FREE; 4],
@@ -47,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut station = Station::default();
     let (mut driven, mut fallbacks, mut copied, mut advised) = (Vec::new(), 0, 0, 0);
-    // The last verified trajectory: followed where no other is there, also after an unsafe cycle, until its `brake_by`.
+    // What was followed last, verified or its own: followed where no other is there, also after an unsafe cycle, until its `brake_by`.
     // The CAV brakes fully by then, so begins earlier by the build-up of its brakes; here it is then no point.
     // Control, which runs more often than cycles do, has to look at that time itself.
     let (mut kept, mut brake_by) = (Vec::new(), None);
@@ -95,6 +96,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
 
         // The one way to what the station sent.
+        let is_local = monitor.configuration() == Configuration::Local;
         let (decision, actions) = monitor.cycle(&inputs);
         let has_trajectory = matches!(decision, Decision::Safe { trajectory: Some(_), .. });
         if (LOST..LOST + 2).contains(&cycle) && !has_trajectory {
@@ -110,15 +112,15 @@ fn main() -> Result<(), Box<dyn Error>> {
                 (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());
                 follow(trajectory)
             }
-            // Were MOT alone remote, an own plan would be driven only when it came out (MON-42).
-            (_, Some(own_plan)) => first(own_plan),
-            (_, None)
-                if brake_by
-                    .is_some_and(|by| now.checked_add(BUILD_UP).is_none_or(|at| at >= by)) =>
-            {
+            // Of a cycle with anything remote an own plan is driven only when it came out (MON-67).
+            (_, Some(own_plan)) if is_local => {
+                (kept, brake_by) = (own_plan.clone(), now.checked_add(TAU));
+                first(own_plan)
+            }
+            _ if brake_by.is_some_and(|by| now.checked_add(BUILD_UP).is_none_or(|at| at >= by)) => {
                 None
             }
-            (_, None) => {
+            _ => {
                 copied += 1;
                 kept.iter().find(|point| point.t_ns > now.as_nanoseconds()).copied()
             }

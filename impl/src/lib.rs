@@ -23,9 +23,9 @@
 //! use mufasa::monitor::{Arrival, Decision, Inputs, Memory, Message, Monitor, Settings, Time};
 //! use mufasa::offloading::requester::{Action, Group, Groups, StationRecord};
 //!
-//! let mut settings = Settings::new(Duration::from_millis(50));
-//! // Two periods and the largest jitter: one lost message ends no session. The default, 100 ms, leaves no jitter.
-//! settings.requester.dt_max_ns = 120_000_000;
+//! let settings = Settings::new(Duration::from_millis(50));
+//! // Two periods and 20 ms of jitter: one lost message ends no session.
+//! assert_eq!(settings.requester.dt_max_ns, 120_000_000);
 //! // From `now` of a cycle to braking with `a_b`: `tau` has 0.1 s for the brake of this vehicle.
 //! assert_eq!(settings.stages.tau, 0.25);
 //! let memory = Memory {
@@ -103,13 +103,12 @@
 //!             driven_as_verified += 1;
 //!         }
 //!         Decision::Safe { trajectory: None, .. } => {
-//!             // Nothing current was there to be checked, or the CAV has no current detections. The local
-//!             // planner is followed; where it is stopped (`Deactivate` came), or MOT alone is remote, the last
-//!             // verified trajectory, of which the CAV keeps a copy, and by its `brake_by` it brakes.
+//!             // In `Local` the local planner is followed. Else nothing current was there to be checked, or the
+//!             // CAV has no current detections: a copy of what it followed last, and by its `brake_by` it brakes.
 //!         }
 //!         Decision::Unsafe { report, .. } => {
-//!             // Nothing of the station is used. The CAV's own plan is driven; until its planner, which was just
-//!             // told to start, has one, the copy of the last verified trajectory, by its `brake_by` braking.
+//!             // Nothing of the station is used. From the next cycle on the CAV's own plan is driven; until its
+//!             // planner, which was just told to start, has one, that copy, by its `brake_by` braking.
 //!             panic!("{report:?}, to be done: {actions:?}");
 //!         }
 //!     }
@@ -127,10 +126,9 @@
 //! * All times are of one monotonic clock ([`monitor::Time`]); the stations' clocks are synchronised with
 //!   it. All places are in one right-handed frame (`spec/5-interfaces.md#cycle`).
 //! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.
-//! * Control follows the trajectory of a safe decision until the next one, a copy of the last verified
-//!   one while a safe decision has none and MOT is remote or the local planner is stopped, and the local planner's
-//!   otherwise. Where there is none of these by the `brake_by` of the last verified one, control brakes along
-//!   it with at least `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
+//! * Control follows the trajectory of a safe decision, and the local planner's at cycles in `Local`; else a copy of what
+//!   it followed last. By the `brake_by` of that, `tau` after its cycle, control brakes along it with at least `a_b`
+//!   (F-47, F-61); such a manoeuvre is within its reach and that of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
 //! * A verdict is as good as the method: some findings are open in the hardened profile
 //!   (`docs/known-problems.md`). Nothing here is certified.

@@ -7,6 +7,7 @@ use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::profile::{HardenedRule, Profile};
+use crate::report::Stage;
 
 /// Steps of H-14: a motion, the boxes around stretches of the path, a walk along the path, an object in numbers with error
 /// bounds.
@@ -166,12 +167,16 @@ pub(crate) const fn looks_along(profile: Profile) -> bool {
     profile.has(HardenedRule::H04) || profile.has(HardenedRule::H14)
 }
 
-/// By how much half the CAV is wider at places of stage v at most, m (H-14.27): with H-14, stage ii fails above the tolerance.
+/// By how much half the CAV is wider at places of stage v at most, m (H-14.27): where stage ii asks the widening, it fails above
+/// the tolerance.
 fn most_wider(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> f64 {
-    if cycle.profile.has(HardenedRule::H14) {
+    let profile = cycle.profile;
+    let [h04, h07, h14] =
+        [HardenedRule::H04, HardenedRule::H07, HardenedRule::H14].map(|rule| profile.has(rule));
+    if h07 && h14 && profile.runs(Stage::Ii) {
         return cycle.parameters.lateral_tolerance;
     }
-    if cycle.profile.has(HardenedRule::H04) { wider_by(cycle, points) } else { 0.0 }
+    if h04 { wider_by(cycle, points) } else { 0.0 }
 }
 
 /// So many messages, offers, ticks and other events count between two cycles.

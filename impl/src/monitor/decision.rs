@@ -24,9 +24,10 @@ pub enum Decision<'m> {
         /// The trajectory that was checked, while a group is remote, it is current and, in the hardened profile, the
         /// CAV has current detections (F-49): that of the station, or in MotRemote that of the CAV's own planner. `None`
         /// in Local, where nothing is checked and the local planner is followed; and while nothing current was there to
-        /// check: a message is missing, or is stamped ahead of the cycle. The local planner may be stopped then: what is
-        /// followed is a copy of the last verified trajectory, along which control brakes by the time that it names
-        /// ([`Verified::brake_by`]), and in MotRemote no own plan that did not come out. Where a message stays missing,
+        /// check: a message is missing, or is stamped ahead of the cycle. What is followed then is a copy of what was
+        /// followed last, along which control brakes by its time: [`Verified::brake_by`], of a plan of the CAV's own tau
+        /// after the last cycle in Local. An own plan that did not come out is followed at a cycle in Local alone (F-61). Where
+        /// a message stays missing,
         /// the session ends as for silence, at the latest 2 dt_max and two periods after the last cycle that had
         /// something current (F-43); for missing detections it does not end.
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
@@ -118,7 +119,7 @@ impl<T> Verified<'_, T> {
 
 impl Verified<'_, Trajectory<'_>> {
     /// The time by which control has to brake along it, with at least `a_b`, unless a later cycle has given a
-    /// trajectory or, except in MotRemote, there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
+    /// trajectory or, in Local, there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
     /// covers no more (H-14), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
     /// the paper profile, which has no `tau`. Source: `spec/monitor.md#monitor`.
     pub const fn brake_by(&self) -> Option<Time> {

@@ -75,9 +75,8 @@ impl<'c> Inputs<'c> {
         self
     }
 
-    /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote. In
-    /// MotRemote do not drive one that does not come out: it is not current, or the CAV has no current detections. What
-    /// its points have to be like: as of [`Self::remote_trajectory`].
+    /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote.
+    /// While anything is remote do not drive one that does not come out (F-61). What its points have to be like: as of [`Self::remote_trajectory`].
     /// Source: `spec/monitor.md#monitor`.
     pub const fn local_trajectory(mut self, stamp: Time, points: &'c [TrajectoryPoint]) -> Self {
         self.local_trajectory = Some(Trajectory { stamp_ns: stamp.as_nanoseconds(), points });

@@ -9,8 +9,9 @@ use std::time::Duration;
 use mufasa::monitor::{Advice, Monitor, MonitorError, Unusual};
 use mufasa::offloading::requester::StationRecord;
 use mufasa_model::input::cycle::Route;
+use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::monitor::messages::{Answer, Event, EventKind};
-use mufasa_model::offloading::requester::Action;
+use mufasa_model::offloading::requester::{Action, GroupState};
 use mufasa_model::services::configuration::Groups;
 use mufasa_props::bridge::{self, Bridged};
 use mufasa_props::lent::Lent;
@@ -20,12 +21,11 @@ use mufasa_records::record::Recorded;
 use serde_json::{Value, json};
 
 use self::duty::{Duty, Findings};
+use self::units::{is_in_another_unit, stamps};
 use crate::ended::{Ended, FAILED, cannot};
 
 pub mod duty;
-
-/// Times this near to each other are of one clock and unit, ns.
-const NEAR_NS: i64 = 2_000_000_000;
+mod units;
 
 /// Replays the calls of a log, writes what is wrong to `out`; the exit code.
 pub fn run(file: &Path, out: &mut impl Write) -> Ended {
@@ -121,6 +121,8 @@ fn replay(
     };
     set_route(&mut monitor, &sequence.route)?;
     let is_restarted = seen.cycles > 0;
+    let tau = Duration::from_secs_f64(made.stages.tau);
+    let tau_ns = i64::try_from(tau.as_nanos()).unwrap_or(i64::MAX);
     let mut examined = Loop {
         monitor: Bridged::new(monitor),
         waits_ns: if is_restarted { settings.requester.t_wait_ns } else { 0 },
@@ -132,6 +134,9 @@ fn replay(
         is_ticked: false,
         released: BTreeMap::new(),
         follows: Follows::OwnPlan,
+        tau_ns: if settings.profile.has(HardenedRule::H14) { tau_ns } else { i64::MAX },
+        own_by_ns: i64::MAX,
+        is_local: true,
         brakes: false,
         offers: BTreeSet::new(),
         asked: BTreeSet::new(),
@@ -204,6 +209,10 @@ struct Loop<'a> {
     is_ticked: bool,
     released: BTreeMap<VerifiedAnswer, Release>,
     follows: Follows,
+    /// `tau`, by when control brakes along a plan of the CAV's own, ns (MON-68), and whether everything is local.
+    tau_ns: i64,
+    own_by_ns: i64,
+    is_local: bool,
     /// Whether the last decision said that control has to brake.
     brakes: bool,
     /// The stations that have a place of the table, since they offer something or were asked; and its places.
@@ -237,8 +246,12 @@ impl Loop<'_> {
 
     /// Control has to brake by the time that what it follows names.
     fn brake_in_time(&mut self, t_ns: i64) {
-        let Follows::Verified(it) = self.follows else { return };
-        let by_ns = self.released.get(&it).and_then(|it| it.brake_by_ns).unwrap_or(i64::MAX);
+        let of = |it| self.released.get(&it).and_then(|it| it.brake_by_ns).unwrap_or(i64::MAX);
+        let by_ns = match self.follows {
+            Follows::Verified(it) => of(it),
+            Follows::OwnPlan => self.own_by_ns,
+            Follows::Brakes => return,
+        };
         self.check(Duty::BrakeBy, t_ns <= by_ns, || {
             format!("at {t_ns} ns control follows what it has to brake along from {by_ns} ns on")
         });
@@ -248,7 +261,7 @@ impl Loop<'_> {
         self.passes(t_ns);
         self.follows = follows;
         self.seen.see("braking", follows == Follows::Brakes);
-        let Follows::Verified(it) = follows else { return };
+        let Follows::Verified(it) = follows else { return self.brake_in_time(t_ns) };
         self.seen.see("followed trajectory of a station", it.station > 0);
         let is_in_time = self.released.get(&it).map(|it| it.is_in_time);
         self.check(Duty::Verified, is_in_time.is_some(), || {
@@ -309,7 +322,12 @@ impl Loop<'_> {
             | EventKind::Lost { station } => drop(self.offers.remove(station)),
             _ => {}
         }
+        if matches!(kind, EventKind::Cycle { .. }) && self.is_local {
+            self.own_by_ns = t_ns.saturating_add(self.tau_ns);
+        }
         let (replayed, why) = self.monitor.step(&event);
+        let is_remote = |it: &GroupState| matches!(it, GroupState::Remote { .. });
+        self.is_local = !is_remote(&replayed.mot) && !is_remote(&replayed.plan);
         self.seen.see("message that is dropped", why.is_some());
         for action in &replayed.actions {
             self.seen.see("release", matches!(action, Action::Release { .. }));
@@ -369,24 +387,6 @@ impl Loop<'_> {
             }
         }
     }
-}
-
-/// The times that an event has beside its own, ns.
-fn stamps(event: &Value) -> Vec<(String, i64)> {
-    let of = |(key, it): (&String, &Value)| match it.as_i64() {
-        Some(ns) if key == "stamp_ns" || key == "generated_ns" => vec![(key.clone(), ns)],
-        _ => stamps(it).into_iter().map(|(name, ns)| (format!("{key}.{name}"), ns)).collect(),
-    };
-    event.as_object().into_iter().flatten().flat_map(of).collect()
-}
-
-/// Whether a time is that of the call in us, ms or s, or the other way round.
-fn is_in_another_unit(now_ns: i64, ns: i64) -> bool {
-    let near = |a: i64, b: i64| a.saturating_sub(b).saturating_abs() <= NEAR_NS;
-    let factors = [1_000_i64, 1_000_000, 1_000_000_000];
-    let is_other =
-        |by: &i64| near(now_ns, ns.saturating_mul(*by)) || near(now_ns.saturating_mul(*by), ns);
-    !near(now_ns, ns) && factors.iter().any(is_other)
 }
 
 /// Whether the answer has what is said of it. Why something was dropped has finer words in the model.

@@ -33,6 +33,7 @@ from mufasa import (
 
 # As docs/configuration.md advises.
 PERIOD = timedelta(milliseconds=50)
+TAU_NS = 250_000_000
 BUILD_UP = timedelta(milliseconds=100)  # from the command to full braking, the vehicle's own
 # Cycles.
 SECOND = 20
@@ -42,7 +43,7 @@ LOST = 2 * SECOND  # the cycle whose messages are lost
 
 def main() -> None:
     # From now of a cycle to braking with a_b (docs/assumptions.md, A-07).
-    monitor = Monitor(PERIOD, parameters={"tau": 0.25})
+    monitor = Monitor(PERIOD, parameters={"tau": TAU_NS / 1e9})
     # A straight road of 300 m, 6 m wide.
     road = [CrossSection(x, 0.0, (x, 3.0), (x, -3.0)) for x in range(-50, 260, 10)]
     monitor.set_route(road)
@@ -78,6 +79,7 @@ def main() -> None:
         # What the CAV measured and planned itself; then the one way to what the station sent.
         # A planner that stands has no plan, also in the period in which it is told to start.
         own_plan = None if station.planner_stands else world.trajectory()
+        is_local = monitor.configuration == "Local"
         decision = monitor.cycle(
             now,
             world.ego,
@@ -94,11 +96,12 @@ def main() -> None:
         if decision.safe and decision.trajectory is not None:
             driven.append(follow(decision.trajectory))
             kept, brake_by = list(decision.trajectory.points), decision.trajectory.brake_by
-        elif own_plan is not None:
-            # Were tracking alone remote, an own plan would be driven only when it came out (MON-42).
+        elif own_plan is not None and is_local:
+            # Of a cycle with anything remote an own plan is driven only when it came out (MON-67).
             driven.append(own_plan[0])
+            kept, brake_by = list(own_plan), Time.from_nanoseconds(now.nanoseconds + TAU_NS)
         elif kept and (brake_by is None or brake_by - now > BUILD_UP):
-            # No other is there, also after an unsafe cycle: the copy of the last verified one. By its brake_by the CAV
+            # No other is there, also after an unsafe cycle: the copy of what was followed last. By its brake_by the CAV
             # brakes fully; control, which runs more often than cycles do, looks at that time itself.
             driven.append(next(point for point in kept if point.t_ns > now.nanoseconds))
             copied += 1

@@ -37,11 +37,11 @@ const MOST_STATIONS: usize = 65_536;
 ///
 /// ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single
 /// defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, two periods and 20 ms by
-/// default, has to be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session
-/// of earlier lives, so that no message of one fits. ``most_stations``: that ever offer something, at most 65,536.
-/// ``check_time``: how long a cycle may take, any time where it is not given; it has memory for all of the domain.
-/// ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
-/// although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
+/// default, has to be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at
+/// least the last session of earlier lives, so that no message of one fits. ``most_stations``: that ever offer
+/// something, at most 65,536. ``check_time``: how long a cycle may take, any time where it is not given; it has memory
+/// for all of the domain. ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of
+/// parameters that are meant although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
 ///
 /// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when the one
 /// before gave actions that nobody has looked at, and ends what was verified before. An event that raises has changed
@@ -98,8 +98,7 @@ impl Monitor {
             return Err(invalid(wrong("most_stations", message)));
         }
         let place = Place::with(&settings, most_stations.0).map_err(no_monitor)?;
-        let (tracks, trajectory, to_do) = (None, None, None);
-        let last = NativeTime::from_nanoseconds(0);
+        let (tracks, trajectory, to_do, last) = (None, None, None, NativeTime::from_nanoseconds(0));
         Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })
     }
 

@@ -149,8 +149,7 @@ verified! {
             brake_by: Option<Time>;
 
             /// By when control has to brake along it, with at least ``a_b``, unless a later cycle has given one or,
-            /// except while MOT alone is remote, there is a plan of the CAV's own: what was examined covers
-            /// no more. None in the paper profile.
+            /// in Local, there is a plan of the CAV's own: what was examined covers no more. None in the paper profile.
             #[getter]
             fn brake_by(&self) -> PyResult<Option<Time>> {
                 self.call.is_last().map(|()| self.brake_by)

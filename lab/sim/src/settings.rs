@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use mufasa::input::parameters::Parameters as StageParameters;
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::monitor;
 use mufasa::offloading::requester::Parameters as RequesterParameters;
 use mufasa::services::configuration::Groups;
@@ -127,6 +127,14 @@ impl Settings {
             recorded: Share::default(),
             logged: false,
         }
+    }
+
+    /// By when control brakes along a plan of the CAV's own, ns: `tau` after the cycle in the hardened profile.
+    pub(crate) fn brake_by(&self, now_ns: i64) -> i64 {
+        let stops = self.profile.is_some_and(|it| it.has(HardenedRule::H14));
+        let tau = Duration::from_secs_f64(self.stages.tau);
+        let tau_ns = if stops { i64::try_from(tau.as_nanos()) } else { Ok(i64::MAX) };
+        now_ns.saturating_add(tau_ns.unwrap_or(i64::MAX))
     }
 
     /// What the CAV's monitor of a profile is made with. It refuses a `tau` that is not above its period; a run that

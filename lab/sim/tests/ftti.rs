@@ -3,7 +3,7 @@
 
 use mufasa::input::cycle::TrajectoryPoint;
 use mufasa::offloading::requester::GroupState;
-use mufasa::services::configuration::{Group, Groups};
+use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
@@ -119,7 +119,8 @@ impl Watcher for Stopwatch {
     fn commanded(&mut self, now_ns: i64, cav: &Cav<'_>, command: Command) {
         self.look(now_ns, cav);
         let brakes = |by_ns: i64| by_ns <= now_ns && command.acceleration <= -A_B;
-        if self.since.is_some() && cav.brake_by_ns().is_none_or(brakes) {
+        let is_local = cav.guard().configuration() == Configuration::Local;
+        if self.since.is_some() && cav.brake_by_ns().map_or(is_local, brakes) {
             self.safe.get_or_insert(now_ns);
         }
     }

@@ -2,23 +2,17 @@
 
 use super::tree::Tree;
 
-/// How each loop writes its period and its dt_max of so many milliseconds.
-const LOOPS: [(&str, [[&str; 2]; 2]); 6] = [
-    ("impl/examples/vehicle.rs", [["Duration::from_millis(", ")"], ["dt_max_ns = ", "_000_000;"]]),
-    ("impl/src/lib.rs", [["Duration::from_millis(", ")"], ["dt_max_ns = ", "_000_000;"]]),
-    ("capi/examples/vehicle.c", [["#define PERIOD_MS ", "\n"], ["dt_max_ns = ", " * MS;"]]),
-    ("capi/README.md", [["settings_default(", "000000)"], ["dt_max_ns = ", "000000;"]]),
-    ("lab/python/examples/vehicle.py", PYTHON),
-    ("lab/python/README.md", PYTHON),
+/// How each loop writes its period of so many milliseconds.
+const LOOPS: [(&str, [&str; 2]); 6] = [
+    ("impl/examples/vehicle.rs", ["Duration::from_millis(", ")"]),
+    ("impl/src/lib.rs", ["Duration::from_millis(", ")"]),
+    ("capi/examples/vehicle.c", ["#define PERIOD_MS ", "\n"]),
+    ("capi/README.md", ["settings_default(", "000000)"]),
+    ("lab/python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
+    ("lab/python/README.md", ["timedelta(milliseconds=", ")"]),
 ];
-const PYTHON: [[&str; 2]; 2] = [["timedelta(milliseconds=", ")"], ["\"dt_max_ns\": ", "_000_000"]];
-const ADVICE: (&str, [[&str; 2]; 2]) = (
-    "docs/configuration.md",
-    [
-        ["| period of the cycle and of the results | ", " ms |"],
-        ["two periods and the largest jitter, ", " ms say"],
-    ],
-);
+const ADVICE: (&str, [&str; 2]) =
+    ("docs/configuration.md", ["| period of the cycle and of the results | ", " ms |"]);
 /// What a page says of a loop, whoever writes it anew.
 const SAID: [(&str, &str); 4] = [
     ("capi/README.md", "take(&decision.actions);"),
@@ -27,19 +21,15 @@ const SAID: [(&str, &str); 4] = [
     ("impl/README.md", "`docs/configuration.md`"),
 ];
 
-/// Loops with another period, or another dt_max, than the documents advise.
+/// Loops with another period than the documents advise.
 pub fn periods(tree: &Tree) -> Vec<(String, String)> {
-    let (page, of_page) = ADVICE;
-    let mut wrong = Vec::new();
-    for (path, of_loop) in LOOPS {
-        for (own, advised) in of_loop.into_iter().zip(of_page) {
-            let [own, advised] = [between(tree, path, own), between(tree, page, advised)];
-            if own.is_none() || own != advised {
-                wrong.push((path.to_owned(), format!("{own:?} ms, advised {advised:?}")));
-            }
-        }
-    }
-    wrong
+    let advised = between(tree, ADVICE.0, ADVICE.1);
+    let found = LOOPS.into_iter().filter_map(|(path, of_loop)| {
+        let own = between(tree, path, of_loop);
+        let is_wrong = own.is_none() || own != advised;
+        is_wrong.then(|| (path.to_owned(), format!("{own:?} ms, advised {advised:?}")))
+    });
+    found.collect()
 }
 
 /// Pages that leave out what must not be left out of a loop, and statuses that nobody looks at.
@@ -72,7 +62,7 @@ fn another_period_and_what_is_left_out_are_seen() {
     change("capi/examples/vehicle.c", "PERIOD_MS 50", "PERIOD_MS 100");
     change("capi/README.md", "take(&decision.actions);", "status = mufasa_monitor_cycle();");
     let named = |found: Vec<(String, String)>| found.into_iter().map(|it| it.0).collect::<Vec<_>>();
-    change("capi/README.md", "dt_max_ns = 120", "dt_max_ns = 100");
+    change("capi/README.md", "settings_default(50", "settings_default(40");
     assert_eq!(named(periods(&tree)), ["capi/examples/vehicle.c", "capi/README.md"]);
     assert_eq!(left_out(&tree).len(), 2);
     assert_eq!(named(left_out(&tree)), ["capi/README.md"; 2]);

@@ -12,7 +12,8 @@ const RUN: &str = ".ci/run";
 pub fn wrong(tree: &Tree) -> Vec<(String, String)> {
     let text = |path: &str| tree.0.get(path).map_or("", String::as_str);
     let (night, page) = (called(text(NIGHT)), text(PAGE));
-    let unnamed = night.iter().filter(|it| !page.contains(&format!("`{it}")));
+    let is_named = |it: &str| ["`", " "].iter().any(|end| page.contains(&format!("`{it}{end}")));
+    let unnamed = night.iter().filter(|it| !is_named(it));
     let unnamed = unnamed.map(|it| (PAGE, format!("does not name `{it}`")));
     let left = text(RUN).split("at night (").skip(1).filter_map(|it| it.split([')', ' ']).next());
     let left = left.filter(|it| !night.contains(*it));

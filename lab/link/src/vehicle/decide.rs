@@ -94,12 +94,12 @@ fn follows(decision: &Decision<'_>, configuration: Configuration) -> Follows {
     let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = decision;
     match (brake, decision) {
         (Some(_), _) => Follows::Brakes,
-        (None, Decision::Unsafe { .. }) => Follows::OwnPlan,
         (None, Decision::Safe { trajectory: Some(it), .. }) => match it.source() {
             Source::Remote { station } => Follows::Station(station),
             Source::Local => Follows::OwnPlan,
         },
-        (None, Decision::Safe { .. }) if configuration == Configuration::Local => Follows::OwnPlan,
-        (None, Decision::Safe { .. }) => Follows::LastVerified,
+        // MON-67
+        (None, _) if configuration == Configuration::Local => Follows::OwnPlan,
+        (None, _) => Follows::LastVerified,
     }
 }

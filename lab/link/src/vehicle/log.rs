@@ -119,7 +119,7 @@ pub enum Follows {
     OwnPlan,
     /// The trajectory of this station.
     Station(i64),
-    /// The last verified trajectory, along which it brakes in time: nothing current has come.
+    /// What it followed last, along which it brakes in time: nothing newer may be followed.
     LastVerified,
     /// Nothing: it brakes fully, since the CAV has no plan of its own that may be followed.
     Brakes,
@@ -131,7 +131,7 @@ impl fmt::Display for Follows {
             Self::OwnPlan => f.write_str("control follows the CAV's own plan"),
             Self::Station(station) => write!(f, "control follows station {station}"),
             Self::LastVerified => {
-                f.write_str("control follows the last verified trajectory, and brakes in time")
+                f.write_str("control follows what it followed last, and brakes in time")
             }
             Self::Brakes => f.write_str("control brakes"),
         }

@@ -23,6 +23,7 @@ fn a_silence_and_a_fallback_are_said_once_each_with_their_reasons() {
     let not_confirmed =
         |ms| [(ms, "mot: session left: not confirmed"), (ms, "plan: session left: not confirmed")];
     let own_plan = "Local: control follows the CAV's own plan";
+    let copy = "Local: control follows what it followed last, and brakes in time";
     let station = "AllRemote: control follows station 1";
     let expected = [
         &[(0, "the vehicle begins"), (130, "connected"), (130, own_plan)][..],
@@ -34,7 +35,8 @@ fn a_silence_and_a_fallback_are_said_once_each_with_their_reasons() {
         &not_confirmed(5_930),
         &[(6_130, station)],
         &[(8_130, "plan: session left: silent"), (8_130, "fallback to Local: i failed")],
-        &[(8_130, "mot: session left: unsafe"), (8_130, own_plan), (18_230, station)],
+        &[(8_130, "mot: session left: unsafe"), (8_130, copy), (8_230, own_plan)],
+        &[(18_230, station)],
         &[(18_830, "mot: session left: end"), (18_830, "plan: session left: end")],
     ];
     assert_eq!(said, expected.concat());
@@ -49,7 +51,7 @@ fn while_nothing_current_comes_the_last_verified_trajectory_is_followed() {
     let world = World { disturbances: vec!["cut@4..4.2"], requester, ..World::default() };
     let said = world.drive().said;
     let around = said.iter().filter(|(ms, _)| (3_000..6_000).contains(ms)).cloned();
-    let braking = "AllRemote: control follows the last verified trajectory, and brakes in time";
+    let braking = "AllRemote: control follows what it followed last, and brakes in time";
     let again = "AllRemote: control follows station 1";
     let expected = [(4_130, braking.to_owned()), (4_330, again.to_owned())];
     assert_eq!(around.collect::<Vec<_>>(), expected);

@@ -32,8 +32,8 @@ duties! {
         "Go through the actions of every call, also of those that seem to have none";
     Verified: "Follow only what is `Verified`.",
         "Let control take its points out of a safe decision alone";
-    BrakeBy: "Brake with at least `a_b` by `brake_by` (MON-42).",
-        "Keep brake_by beside the trajectory, and let control compare it with its own clock";
+    BrakeBy: "Brake with at least `a_b` by `brake_by` (MON-42, MON-67, MON-68).",
+        "Keep brake_by beside the trajectory, tau after the cycle beside an own plan of Local, and let control compare it with its clock";
     Late: "Take a missing or late verdict as unsafe (A-13).",
         "Throw away a decision that comes after check_time";
     Tau: "Set `tau` as A-07 asks.",

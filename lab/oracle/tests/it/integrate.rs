@@ -111,6 +111,25 @@ fn a_brake_by_that_is_ignored_is_noticed() {
     });
 }
 
+/// MON-67, MON-68: from tau after the last cycle in Local.
+#[test]
+fn an_own_plan_that_did_not_come_out_is_noticed() {
+    let at = first(0, is("confirm"));
+    let t_ns = |line: &Value| line["call"]["event"]["t_ns"].as_i64().expect("a time");
+    let local = (0..at).rfind(|it| is("cycle")(&CLEAN[*it])).expect("a cycle in Local");
+    let by_ns = t_ns(&CLEAN[local]) + 250_000_000;
+    let late = first(at, |line| line["call"].is_object() && t_ns(line) > by_ns);
+    let follows = |lines: &mut Vec<Value>, until: usize| {
+        let controls = lines[at..until].iter_mut().filter(|it| it["control"].is_object());
+        controls.for_each(|it| it["control"]["follows"] = json!("own_plan"));
+    };
+    breaks(Duty::BrakeBy, late, |it| follows(it, late + 1));
+    let mut in_time = CLEAN.clone();
+    follows(&mut in_time, late);
+    let (found, _) = examine(&text(&in_time[..late])).expect("it can be read");
+    assert_eq!(found.text("log"), "", "up to then it may");
+}
+
 #[test]
 fn a_verdict_that_is_late_or_missing_and_followed_is_noticed() {
     let follows = first(0, follows_station);

@@ -167,8 +167,7 @@ class VerifiedTrajectory:
     @property
     def brake_by(self) -> Time | None:
         """By when control has to brake along it, with at least ``a_b``, unless a later cycle has given one or,
-        except while MOT alone is remote, there is a plan of the CAV's own: what was examined covers no more.
-        None in the paper profile."""
+        in Local, there is a plan of the CAV's own: what was examined covers no more. None in the paper profile."""
 
 @final
 class Decision:
@@ -213,7 +212,7 @@ class Monitor:
     data are handed in and are out of reach until ``cycle`` has checked them.
 
     ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults
-    by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to
+    by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, two periods and 20 ms by default, has to
     be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session of earlier lives, so that no
     message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a
     cycle may take, any time where it is not given; it has memory for all of the domain.

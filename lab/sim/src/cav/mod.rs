@@ -71,8 +71,9 @@ pub struct Cav<'a> {
     points: Vec<TrajectoryPoint>,
     /// The same in words.
     follows: Follows,
-    /// By when it brakes along it where nothing newer has come, ns (F-47).
+    /// By when it brakes along it where nothing newer has come, ns (F-47); of a plan of its own (F-61).
     brake_by_ns: Option<i64>,
+    own_by_ns: i64,
     /// How many of its own plans were examined (`Settings::supervise_local`), and how many of them failed.
     examined: [u64; 2],
     /// What its planner asks before it hands a plan over in `MotRemote`, if it asks.
@@ -108,6 +109,7 @@ impl<'a> Cav<'a> {
             points: Vec::new(),
             follows: Follows::OwnPlan,
             brake_by_ns: None,
+            own_by_ns: i64::MAX,
             examined: [0; 2],
             asking: Asking::new(settings, cross_sections),
             counts: Counts::default(),
@@ -238,7 +240,9 @@ impl<'a> Cav<'a> {
         };
         let stamp_ns = sensed.stamp_ns;
         let own = own.as_deref().map(|items| TrackList { stamp_ns, items });
-        let remote = self.tracks.as_ref();
+        // MON-67
+        let is_remote = self.guard.configuration().is_remote(Group::Mot);
+        let remote = self.tracks.as_ref().filter(|_| is_remote);
         let remote = remote.map(|(stamp_ns, items)| TrackList { stamp_ns: *stamp_ns, items });
         let list = remote.or(own).unwrap_or(TrackList { stamp_ns: now_ns, items: &[] });
         let (near_s, signals) = (Some(truth.ego.s), &*truth.closed_signals());
@@ -258,13 +262,13 @@ impl<'a> Cav<'a> {
         });
         let trajectory = points.as_deref().map(|points| Trajectory { stamp_ns: now_ns, points });
         let local = Results { tracks: own, trajectory };
+        let is_own = self.is_own();
         let guard = &mut self.guard;
         let mut decided = guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
         self.own = own.map(|list| (stamp_ns, list.items.to_vec()));
         self.act(now_ns, &decided.actions, radio);
-        // In `Local` nothing is checked, and after an unsafe cycle everything is local.
-        let is_own = decided.report.is_some() && decided.trajectory.is_none() && self.is_own();
+        let is_own = is_own && decided.report.is_some();
         // No cycle covers its own plan, which takes the place of whatever it had.
         let brake_by_ns = decided.brake_by_ns.filter(|_| !is_own);
         let new = if is_own { points } else { decided.trajectory.take() };
@@ -282,6 +286,9 @@ impl<'a> Cav<'a> {
             self.follows = released.map_or(Follows::OwnPlan, Follows::Verified);
             self.points = points;
             self.brake_by_ns = brake_by_ns;
+            if is_own {
+                self.own_by_ns = self.settings.brake_by(now_ns);
+            }
         }
         if let Some(asking) = &mut self.asking {
             asking.see(stamp_ns, &sensed.detections);
@@ -293,21 +300,22 @@ impl<'a> Cav<'a> {
     /// What control wants now.
     pub fn command(&mut self, now_ns: i64, truth: &Snapshot) -> Command {
         let ego = ego(truth, &self.body);
-        let has_ended = self.brake_by_ns.is_some_and(|by_ns| by_ns <= now_ns);
+        // MON-42
+        let has_ended = self.brake_by_ns.unwrap_or(self.own_by_ns) <= now_ns;
         // Without points it brakes along those that it had.
         let drives_on = !has_ended || self.settings.drives_on;
         self.guard.control(now_ns, if drives_on { self.follows } else { Follows::Brakes });
         self.controller.command(&ego, if drives_on { &self.points } else { &[] }, now_ns)
     }
 
-    /// By when control brakes along what it follows, ns; none: it follows a plan of its own that no cycle covers.
+    /// By when control brakes along what came out of a cycle, ns; none: it follows a plan of its own.
     pub fn brake_by_ns(&self) -> Option<i64> {
         self.brake_by_ns
     }
 
     /// Whether the CAV follows plans of its own that did not come out of a cycle.
     fn is_own(&self) -> bool {
-        // MON-42
+        // MON-67
         self.guard.configuration() == Configuration::Local
     }
 
