@@ -42,8 +42,8 @@ def left_out(record: dict[str, Any]) -> str | None:
 
 def started(record: dict[str, Any]) -> Monitor:
     period = timedelta(microseconds=record["period_ns"] // 1000)
-    # A record has the whole domain, and its own default of tau.
-    parameters = {"tau": 0.1} | record["parameters"]
+    # A record has the whole domain, and its own defaults of tau and dt_max.
+    parameters = {"tau": 0.1, "dt_max_ns": 100_000_000} | record["parameters"]
     given = {"profile": record["profile"], "parameters": parameters, "meant": [*parameters, "period"]}
     monitor = Monitor(period, sessions_before=record["last_session"], **given)
     monitor.set_route(record["route"]["stations"], closed=record["route"]["closed"])
