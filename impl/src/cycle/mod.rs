@@ -327,10 +327,12 @@ impl<'c, 'a> Current<'c, 'a> {
 
 /// Runs the stages on valid input.
 fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
-    let (seen, aside) = (valid.look_back(scratch), valid.aside());
+    let seen = valid.look_back(scratch);
     let mut stages = [Outcome::NotScheduled; 5];
     let mut slots = stages.iter_mut();
     let Cycle { profile, configuration, .. } = *valid.cycle;
+    // SCHED-01: no stage asks.
+    let aside = if configuration == Configuration::Local { 0.0 } else { valid.aside() };
     let failed_stage = decide(profile, configuration, valid.given(), |stage, turn| {
         // SCHED-14
         let outcome = match turn {

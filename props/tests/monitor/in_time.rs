@@ -6,7 +6,7 @@ use std::time::Duration;
 use mufasa::cycle::steps::{Counts, Steps, most_steps};
 use mufasa::input::cycle::{CrossSection, Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::monitor::{Decision, GridMap, Inputs, Monitor, MonitorError, Settings};
 use mufasa::offloading::requester::Groups;
 use mufasa::report::{InvalidInput, Problem};
@@ -124,6 +124,29 @@ fn no_places_count_behind_the_end_of_the_path() {
     assert!(f64::from(straight) < 4.0 * s_stop + 20.0, "{straight} for {s_stop} m");
     let to_and_fro = places(1.0, &|i| [0.15, 0.8 * f64::from(i % 2)], 1000);
     assert!(to_and_fro < 60, "{to_and_fro}");
+}
+
+/// IMPL-13, H-14.27: a disk counts as wide as it may be where stage ii asks the widening, else as it is.
+#[test]
+fn disks_count_with_the_tolerance_where_stage_ii_asks_the_widening() {
+    let (world, road, bits) = (World::at(0), road(), [0; 8]);
+    let points = still(&world);
+    let rows = |profile, lateral_tolerance| {
+        let parameters = Parameters { lateral_tolerance, ..Parameters::default() };
+        let cycle = alone(&world, &road, &points, grid(0.2, &bits));
+        Counts::of(&Cycle { profile, parameters, ..cycle }).disk_rows
+    };
+    let of_width = |width: f64| {
+        let across = (world.ego.length / 4.0).hypot(width);
+        (0..100).rfind(|rows| f64::from(*rows) <= across / 0.2 + 7.0).expect("rows")
+    };
+    let (plain, wide) = (of_width(world.ego.width), of_width(world.ego.width + 1.0));
+    assert!(plain < wide);
+    assert_eq!([0.0, 0.5].map(|it| rows(Profile::HARDENED, it)), [plain, wide]);
+    for rule in [HardenedRule::H07, HardenedRule::H14] {
+        assert_eq!(rows(Profile::HARDENED.without(rule), 0.5), plain, "{rule:?}");
+    }
+    assert_eq!(rows(Profile::PAPER, 0.5), plain);
 }
 
 fn grid(resolution: f64, bits: &[u8; 8]) -> Grid<'_> {
