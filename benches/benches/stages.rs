@@ -9,12 +9,10 @@ use std::time::Instant;
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
 use mufasa::input::route_index::{Block, RouteIndex};
-use mufasa::offloading::requester::StationRecord;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer::{self, corridor::Trees};
-use mufasa_benches::periods::Periods;
 use mufasa_benches::race::{Entry, Rounds, measure};
 use mufasa_benches::table::{Cache, OURS, Results, TEAMS, Team, UNSEEN, hardened, markdown};
 use mufasa_benches::workload::recipe::Size;
@@ -101,9 +99,6 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     let mut it = Contestant::new(cycle);
     let run = move || it.check().failed_stage.is_none();
     contestants.push(contestant(UNSEEN, hardened(), Box::new(run)));
-    for (name, profile) in [(OURS.to_owned(), Profile::PAPER), (hardened(), Profile::HARDENED)] {
-        contestants.extend(requester(&name, profile));
-    }
     agree(&mut contestants, true);
     let times = measure(&mut contestants, rounds);
     let mut results = Results { workload: workload.name.clone(), times };
@@ -149,26 +144,6 @@ fn whole_cycles<'a>(results: &Results, [paper, strict]: [&'a Cycle<'a>; 2]) -> V
 /// The task of a stage alone.
 fn of_stage(stage: Stage) -> String {
     format!("stage {stage:?}").to_lowercase()
-}
-
-/// A period of the requester with both groups remote: a tick, an element of each group, a safe verdict;
-/// and a fallback, from the tick that asks to the verdict that ends both sessions.
-fn requester<'a>(name: &str, profile: Profile) -> [Entry<'a>; 2] {
-    let table = || vec![StationRecord::FREE; 4].leak();
-    let (mut period, mut fallback) =
-        (Periods::new(profile, table()), Periods::new(profile, table()));
-    let period = move || {
-        period.period();
-        true
-    };
-    let fallback = move || {
-        fallback.fallback();
-        true
-    };
-    [
-        contestant("requester step", name.to_owned(), Box::new(period)),
-        contestant("requester fallback", name.to_owned(), Box::new(fallback)),
-    ]
 }
 
 /// Wrong answers are not timed.

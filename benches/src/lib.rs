@@ -1,10 +1,9 @@
-//! The published workloads, periods of the requester, and the libraries that the implementation is timed against.
+//! The published workloads, and the libraries that the implementation is timed against.
 
 pub mod contestant;
 pub mod monitored;
 #[cfg(feature = "peers")]
 pub mod peer;
-pub mod periods;
 #[cfg(feature = "peers")]
 pub mod race;
 pub mod steps;

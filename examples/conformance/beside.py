@@ -10,6 +10,7 @@ from paper import segments
 from stopping import cross, displacement
 
 ERROR, NEAREST, ALIKE = 1e-5, 0.09, 1e-6
+NEARER = 0.125 - 4 * ERROR
 
 
 class Beside:
@@ -57,18 +58,37 @@ class Beside:
 
     @cached_property
     def sides(self):
-        """A and B: between which distances the CAV is; everywhere where its path may leave the route."""
-        sides = []
+        """A_0, [C_0 to the left, to the right], and A, B, [C to the left, to the right]; A is -inf and B inf
+        where the CAV's path may leave the route."""
+        covered, of_p = [], None
         for place in self.places:
             turned = abs(cross(self.ego, place.heading))
             x, y = (float(at) + self.ego["center_offset"] * place.heading[key]
                     for at, key in ((place.x, "cos"), (place.y, "sin")))
             if turned > 0.05 + float(place.progress) / 30 - ERROR or not self.is_along_the_route(x, y):
-                return -math.inf, math.inf
+                return (0, [0, 0]), (-math.inf, math.inf, [0, 0])
             D, lines = self.nearest((x, y))
-            E = max(self.extent(place.heading, *line) for line in lines)
-            sides += [D - E, D + E]
-        return min(sides), max(sides)
+            here = [(D, left * D, self.extent(place.heading, *line))
+                    for line in lines for left in self.signs((x, y), *line)]
+            of_p = of_p or (max(D - E for D, _, E in here),
+                            [min(s * left + E for _, left, E in here) for s in (1, -1)])
+            covered += here
+        return of_p, (min(D - E for D, _, E in covered), max(D + E for D, _, E in covered),
+                      [max(s * left + E for _, left, E in covered) for s in (1, -1)])
+
+    def signs(self, at, a, b):
+        """1 on the left of a segment, -1 on its right, both where neither is certain."""
+        across = (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0])
+        return [1, -1] if abs(across) <= ERROR * math.dist(a, b) + EPS else [math.copysign(1, across)]
+
+    def comes_no_nearer(self, at, line, D):
+        """Whether the CAV comes no nearer than at p to who keeps to its lane there."""
+        (A0, C0), (A, B, C) = self.sides
+        if A - D >= D - B:
+            return A > A0 - NEARER
+        sign, *other = self.signs(at, *line)
+        side = 0 if sign > 0 else 1
+        return not other and C[side] < C0[side] + NEARER
 
     def extent(self, heading, a, b):
         """E_k: half of what the CAV's rectangle takes across a segment, and a."""
@@ -93,22 +113,26 @@ class Beside:
         D, lines = self.nearest(at)
         if D < NEAREST or D > 20 - ERROR or self.lies_across(motion):
             return False
-        A, B = self.sides
-        room = max(A - D, D - B) - ERROR
-        return all(self.needed(motion, *from_nearest(at, *line)) < room for line in lines)
+        _, (A, B, _) = self.sides
+        sides = (max(it["length"], it["width"]) for it in (motion.item, self.ego))
+        sagitta = sum(side**2 for side in sides) / (6 * (300 if ahead > EPS else 30))
+        room = max(A - D, D - B) - ERROR - sagitta
+        return all(self.needed(motion, *from_nearest(at, *line),
+                               motion.is_behind and self.comes_no_nearer(at, line, D)) < room
+                   for line in lines)
 
     def lies_across(self, motion):
         """Whether it lies where the path leads, though its centre may be beside it."""
         cav = {**self.ego, "width": self.ego["width"] + 2 * self.a}
         return any(motion.is_on(cav, place.pose) for place in self.places)
 
-    def needed(self, motion, x, y):
+    def needed(self, motion, x, y, keeps_lane):
         """The room that it needs along q, which is known to 4e-7 of its length."""
         item, D = motion.item, math.hypot(x, y)
         c, s, w = item["cos"], item["sin"], motion.speed
         half = (abs(c * x + s * y) * item["length"] + abs(c * y - s * x) * item["width"]) / 2 + 4e-5 * D
         drift = abs(float(motion.w[0]) * x + float(motion.w[1]) * y) / D
-        if motion.is_behind and drift < w * (0.1 - ERROR):
+        if keeps_lane and drift < w * (0.1 - ERROR):
             return half / D
         return half / D + (drift + 4e-7 * w) * max(self.T, motion.yielded)
 

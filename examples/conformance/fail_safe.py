@@ -232,9 +232,19 @@ class FailSafe:
         found += [excess(self.cycle, place.x, place.y, place.heading) for place in self.places[1:]]
         return max(found, default=0.0)
 
+    def goes_back(self):
+        """Whether a place is behind the CAV, or a point that is no node behind one before it."""
+        points, _ = parted(self.cycle)
+        passed = [at(self.ego, point)[0] for point in points]
+        back = [before - x for before, x in zip(itertools.accumulate(passed, max), passed)]
+        back += [-place.progress for place in self.places[1:]]
+        return max(back, default=0) > 0.125 - EPS
+
     def within_reach(self):
         """The CAV can drive the path, and what comes before it, up to lateral_tolerance; the path goes on,
         neither aside nor back for long; and the headings of the places go with it."""
+        if self.goes_back():
+            return False
         if self.excess > self.cycle["parameters"]["lateral_tolerance"] - EPS:
             return False
         if self.places[-1].length > greatest_length(self.stop.s_stop) - EPS:

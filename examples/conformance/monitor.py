@@ -46,15 +46,12 @@ class Waiting(Requester):
             slot.update(since_ns=now_ns, first_ns=None, starved=False, element=None)
 
     def looked_at(self, g, now_ns, is_current):
-        """The table of the waits, for a cycle. When starving ends, elements count as arrivals
-        again; the last arrival stays the one before it starved."""
+        """The table of the waits, for a cycle that counts. When starving ends, elements count as
+        arrivals again; the last arrival stays the one before it starved."""
         slot = self.group[g]
-        if slot["first_ns"] is not None:
-            slot["first_ns"] = min(slot["first_ns"], now_ns)
-        elif is_current:
-            slot["first_ns"] = now_ns
-        if is_current or now_ns < slot["since_ns"]:
-            slot.update(since_ns=now_ns, starved=False)
+        if is_current:
+            first_ns = now_ns if slot["first_ns"] is None else slot["first_ns"]
+            slot.update(since_ns=now_ns, first_ns=first_ns, starved=False)
         elif now_ns - slot["since_ns"] > self.parameters["dt_max_ns"]:
             slot["starved"] = True
 
@@ -66,7 +63,7 @@ class Monitor:
         self.max_age_ns = self.parameters["max_age_ns"]
         self.requester = Waiting(self.times, self.hardened, self.period_ns, self.last_session)
         self.group = self.requester.group
-        self.kept, self.tick_ns, self.said = [], None, None
+        self.kept, self.tick_ns, self.cycle_ns, self.said = [], None, None, None
         self.given_back_ns, self.mark, self.remote_ns = None, (0.0, 0.0), 0
         self.planned_ns = None  # the last cycle, where PLAN was remote after it
 
@@ -142,8 +139,14 @@ class Monitor:
     def cycle(self, now_ns, measured):
         remote = {g: self.is_remote(g) for g in GROUPS}
         elements = {g: self.group[g]["element"] for g in GROUPS if remote[g]}
+        in_time = self.tick_ns is not None and (
+            0 <= now_ns - self.tick_ns <= self.times["dt_max_ns"]
+            and (self.cycle_ns is None or self.cycle_ns <= self.tick_ns))
+        self.tick_ns, self.cycle_ns = None, now_ns
+        is_seen = not self.hardened or self.is_current(measured["detections"], now_ns)
         for g in elements:
-            self.requester.looked_at(g, now_ns, self.is_current(elements[g], now_ns))
+            if in_time and is_seen:  # MON-69
+                self.requester.looked_at(g, now_ns, self.is_current(elements[g], now_ns))
         cycle = {**measured, "profile": self.profile, "parameters": self.parameters,
                  "now_ns": now_ns, "route": self.route,
                  "configuration": {(False, False): "Local", (True, False): "MotRemote",
@@ -154,9 +157,6 @@ class Monitor:
             if remote[g]:
                 cycle[key] = elements[g]
         stage, error = self.judged(cycle)
-        in_time = self.tick_ns is not None and (
-            0 <= now_ns - self.tick_ns <= self.times["dt_max_ns"])
-        self.tick_ns = None
         if error is None:
             self.keep(now_ns, measured["detections"])
             if elements and not in_time:

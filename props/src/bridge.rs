@@ -67,7 +67,7 @@ mod verdict;
 pub use self::cycle::{
     Owned, cycle_parameters, from_impl, point_from_impl, route_to_impl, to_impl, track_from_impl,
 };
-pub use self::monitor::{Bridged, lent, settings_to_impl};
+pub use self::monitor::{Bridged, brake_from_impl, lent, settings_to_impl};
 pub use self::profile::{profile_from_impl, profile_to_impl, rule_to_impl};
 pub use self::requester::{
     action_from_impl, configuration_from_impl, event_to_impl, group_from_impl, group_to_impl,

@@ -179,7 +179,8 @@ impl VerifiedAnswer {
 }
 
 impl BrakeAnswer {
-    fn new(brake: Brake) -> Self {
+    /// As answers name it.
+    pub fn new(brake: Brake) -> Self {
         match brake {
             Brake::Failed(stage, witness) => Self::Failed {
                 failed_stage: Word(stage),

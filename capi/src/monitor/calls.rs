@@ -157,7 +157,8 @@ pub unsafe extern "C" fn mufasa_monitor_cycle(
     // SAFETY: as above.
     let (status, told) = match unsafe { cycle(monitor, now, inputs) } {
         Ok(told) => (MufasaStatus::Ok, told),
-        Err(status) => (status, fall_back(monitor, now)),
+        // SAFETY: the caller's duty.
+        Err(status) => (status, unsafe { fall_back(monitor, now, inputs) }),
     };
     // SAFETY: as above.
     unsafe { put(decision, told) }.map_or_else(|fault| fault, |()| status)
@@ -352,8 +353,15 @@ const fn fits(len: usize, most: usize) -> Result<(), MufasaStatus> {
 }
 
 /// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number. That elements of the
-/// stations were current counts in it, too (MON-35), and the requester is told (MON-10).
-fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
+/// stations were current counts in it, too (MON-35), as far as detections were (MON-69), and the requester is told (MON-10).
+///
+/// # Safety
+/// As for [`mufasa_monitor_cycle`].
+unsafe fn fall_back(
+    monitor: &mut MufasaMonitor,
+    now: MufasaTime,
+    raw: *const MufasaMonitorInputs,
+) -> MufasaDecision {
     let nowhere = Ego {
         x: 0.0,
         y: 0.0,
@@ -365,7 +373,13 @@ fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
         center_offset: 0.0,
     };
     let MufasaMonitor { monitor, verdicts, tracks, trajectory, .. } = monitor;
-    let inputs = with_remote(Inputs::new(now.time(), nowhere), tracks, trajectory);
+    let mut inputs = with_remote(Inputs::new(now.time(), nowhere), tracks, trajectory);
+    // SAFETY: the caller's duty, here and below.
+    let seen = unsafe { required(raw) }.and_then(|raw| unsafe { optional(raw.detections) });
+    if let Ok(Some(it)) = seen {
+        // Of an invalid cycle no list is kept.
+        inputs = inputs.detections(it.stamp.time(), &[]);
+    }
     let MufasaDecision { actions, advice, brake, .. } = verdicts.of_cycle(monitor, &inputs);
     MufasaDecision { actions, advice, brake, ..nothing_decided() }
 }

@@ -291,7 +291,7 @@ fn tape(seed: u64) -> Vec<u32> {
     std::iter::repeat_with(next).take(TAPE).collect()
 }
 
-/// MON-01, MON-08, MON-20, MON-40, MON-45.
+/// MON-01, MON-08, MON-20, MON-40, MON-45, MON-69.
 #[test]
 fn the_monitor_in_c_answers_as_the_model() {
     let mut count = BTreeMap::<&str, u32>::new();

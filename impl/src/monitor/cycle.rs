@@ -144,8 +144,9 @@ impl Monitor<'_> {
         let max_age_ns = self.settings.stages.max_age_ns;
         let dt_max_ns = self.settings.requester.dt_max_ns;
         // MON-45
-        let ticked_ns = self.ticked.take().map(Time::as_nanoseconds);
-        let is_ticked = is_ticked(ticked_ns, now_ns, dt_max_ns);
+        let [ticked_ns, before_ns] = [self.ticked.take(), self.cycled.replace(inputs.now)]
+            .map(|it| it.map(Time::as_nanoseconds));
+        let is_ticked = is_ticked(ticked_ns, before_ns, now_ns, dt_max_ns);
         if is_valid {
             // IMPL-18
             self.watch.cycle(inputs, &self.settings, is_ticked);
@@ -161,13 +162,16 @@ impl Monitor<'_> {
             tracks.is_some_and(|list| current(list.stamp_ns)),
             trajectory.is_some_and(|it| current(it.stamp_ns)),
         ];
-        for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
-            self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
-        }
-        let in_use = remote.map(|running| running.map(|running| running.session));
         // MON-66
         let has_seen = !self.settings.profile.has(HardenedRule::H14)
             || inputs.detections.is_some_and(|list| current(list.stamp_ns));
+        if has_seen && is_ticked {
+            // MON-69
+            for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
+                self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
+            }
+        }
+        let in_use = remote.map(|running| running.map(|running| running.session));
         let Released { is_safe, tracks: gives_tracks, trajectory: gives_trajectory, sessions } =
             Released::of(&report, in_use, has_current, has_seen);
         let tracks = tracks.filter(|_| gives_tracks);

@@ -65,6 +65,8 @@ pub struct Monitor<'a> {
     served: PerGroup<Served>,
     /// The last tick since the last cycle.
     ticked: Option<Time>,
+    /// The last cycle.
+    cycled: Option<Time>,
     /// What the last cycle said of the CAV's own plan.
     brake: Option<Brake>,
     progress: Progress,
@@ -105,6 +107,7 @@ impl<'a> Monitor<'a> {
             requester: requester(&settings, stations)?,
             served: PerGroup::default(),
             ticked: None,
+            cycled: None,
             brake: None,
             progress: Progress::default(),
             watch: Watch::default(),

@@ -72,10 +72,16 @@ pub fn is_last_used(running: &Running, station: i64, session: i64, generated: Ti
 }
 
 /// Whether the last tick since the cycle before is in time, ns. Source: `spec/monitor.md#monitor`.
-pub fn is_ticked(ticked_ns: Option<i64>, now_ns: i64, dt_max_ns: i64) -> bool {
+pub fn is_ticked(
+    ticked_ns: Option<i64>,
+    before_ns: Option<i64>,
+    now_ns: i64,
+    dt_max_ns: i64,
+) -> bool {
     ticked_ns.is_some_and(|tick_ns| {
-        // MON-45; A-12
+        // MON-45
+        let is_set_back = before_ns.is_some_and(|before_ns| tick_ns < before_ns);
         let since_ns = now_ns.checked_sub(tick_ns);
-        since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
+        !is_set_back && since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
     })
 }

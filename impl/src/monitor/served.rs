@@ -44,23 +44,18 @@ impl Served {
         (wait_ns > 0).then_some(again_ns)
     }
 
-    /// A cycle in which an element of the session was current, or none. After a clock was set back behind the time
-    /// that counts, time counts from there; one that is set back by less feeds no group. In a group
-    /// that is local this means nothing: a session begins anew.
+    /// A cycle that counts, in which an element of the session was current, or none. In a group that is local this means
+    /// nothing: a session begins anew.
     pub fn cycle(&mut self, now_ns: i64, has_current: bool, dt_max_ns: i64) {
-        // MON-33, MON-63
-        let is_fed = has_current || now_ns < self.last_ns;
-        // MON-35, MON-36
         if has_current {
+            // MON-33, MON-35, MON-36
             self.first_ns = self.first_ns.or(Some(now_ns));
             self.last_ns = now_ns;
+            self.is_starved = false;
+        } else if now_ns > self.last_ns.saturating_add(dt_max_ns) {
+            // MON-31
+            self.is_starved = true;
         }
-        // MON-37
-        self.first_ns = self.first_ns.map(|first_ns| first_ns.min(now_ns));
-        self.last_ns = self.last_ns.min(now_ns);
-        // MON-31
-        let is_long = now_ns.abs_diff(self.last_ns) > dt_max_ns.unsigned_abs();
-        self.is_starved = !is_fed && (self.is_starved || is_long);
     }
 }
 

@@ -106,7 +106,9 @@ impl Settings {
     /// `spec/4-arithmetic.md#usual-settings`.
     pub fn bit_of(field: &str) -> u32 {
         let rows = Self::new(Duration::ZERO).rows();
-        let is_named = |name: &str| name == field || name.rsplit('.').next() == Some(field);
+        // No `rsplit`, which calls itself in `core`.
+        let ends = |name: &str| name.strip_suffix(field).is_some_and(|it| it.ends_with('.'));
+        let is_named = |name: &str| name == field || ends(name);
         bits().zip(rows).find(|(_, row)| is_named(row.field)).map_or(0, |(bit, _)| bit)
     }
 

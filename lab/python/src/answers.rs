@@ -8,6 +8,7 @@ use mufasa_props::bridge;
 use mufasa_records::answer::CycleAnswer;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use serde::Serialize;
 
 use crate::arguments::{Line, OneProfile};
 use crate::errors::invalid;
@@ -53,7 +54,16 @@ fn checked(
 pub fn verdict(py: Python<'_>, id: String, report: Report) -> PyResult<Bound<'_, PyAny>> {
     // The implementation has one reading; Python leaves out what the answer says of the others.
     let (strict, lax) = (report.clone(), report.clone());
-    let answer = serde_json::to_string(&CycleAnswer::new(id, report, &strict, &lax));
+    of_json(py, "of_answer", &CycleAnswer::new(id, report, &strict, &lax))
+}
+
+/// What a function of `mufasa._verdict` makes of an answer as JSON.
+pub fn of_json<'py>(
+    py: Python<'py>,
+    function: &str,
+    answer: &impl Serialize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let answer = serde_json::to_string(answer);
     let answer = answer.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-    py.import("mufasa._verdict")?.getattr("of_answer")?.call1((answer,))
+    py.import("mufasa._verdict")?.getattr(function)?.call1((answer,))
 }

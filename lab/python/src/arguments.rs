@@ -42,6 +42,8 @@ arguments! { by value;
     Period(Duration) of "period";
     /// How long a cycle may take.
     CheckTime(Duration) of "check_time";
+    /// Way, m, and time after which planning is given back.
+    GivenBack((f64, Duration)) of "stall";
     /// What a step costs, ps.
     StepPs(u64) of "step_ps";
     /// A time, ns.

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use mufasa::monitor::Decision as NativeDecision;
+use mufasa::monitor::{Brake, Decision as NativeDecision};
 use mufasa_props::bridge;
+use mufasa_records::monitor_answer::BrakeAnswer;
 use pyo3::prelude::*;
 
 use crate::actions::{Actions, ToDo};
-use crate::answers::verdict;
+use crate::answers::{of_json, verdict};
 use crate::errors::{UnsafeCycle, invalid};
 use crate::verified::{Call, Calls, VerifiedTracks, VerifiedTrajectory};
 
@@ -19,6 +20,7 @@ pub struct Decision {
     data: Option<Data>,
     report: Option<Py<PyAny>>,
     error: Option<Py<PyAny>>,
+    brake: Option<Py<PyAny>>,
     actions: Py<Actions>,
 }
 
@@ -41,17 +43,22 @@ impl Decision {
             let report = bridge::report_from_impl(report);
             verdict(py, String::new(), report).map(Bound::unbind)
         };
+        let brake = |brake: &Option<Brake>| {
+            let brake = brake.map(|it| BrakeAnswer::new(bridge::brake_from_impl(it)));
+            let brake = brake.map(|it| of_json(py, "brake_of", &it)).transpose()?;
+            PyResult::Ok(brake.map(Bound::unbind))
+        };
         Ok(match decision {
-            NativeDecision::Safe { tracks, trajectory, report: of_safe, .. } => {
+            NativeDecision::Safe { tracks, trajectory, report: of_safe, brake: says } => {
                 let tracks = tracks.as_ref().map(|it| Py::new(py, VerifiedTracks::new(call(), it)));
                 let trajectory =
                     trajectory.as_ref().map(|it| Py::new(py, VerifiedTrajectory::new(call(), it)));
                 let data =
                     Some(Data { tracks: tracks.transpose()?, trajectory: trajectory.transpose()? });
                 let (report, error) = (Some(report(of_safe)?), None);
-                Self { call: call(), data, report, error, actions }
+                Self { call: call(), data, report, error, brake: brake(says)?, actions }
             }
-            NativeDecision::Unsafe { report: why, .. } => {
+            NativeDecision::Unsafe { report: why, brake: says } => {
                 let (report, error) = match why {
                     Ok(of_unsafe) => (Some(report(of_unsafe)?), None),
                     Err(problem) => {
@@ -59,7 +66,7 @@ impl Decision {
                         (None, Some(problem.into_value(py).into_any()))
                     }
                 };
-                Self { call: call(), data: None, report, error, actions }
+                Self { call: call(), data: None, report, error, brake: brake(says)?, actions }
             }
         })
     }
@@ -121,6 +128,13 @@ impl Decision {
     #[getter]
     fn error(&self, py: Python<'_>) -> Option<Py<PyAny>> {
         self.error.as_ref().map(|it| it.clone_ref(py))
+    }
+
+    /// Why control has to brake with at least ``a_b`` along what it followed last, from this cycle on until one says None:
+    /// the CAV's own plan is missing or fails. Only with ``supervise_local``.
+    #[getter]
+    fn brake(&self, py: Python<'_>) -> Option<Py<PyAny>> {
+        self.brake.as_ref().map(|it| it.clone_ref(py))
     }
 
     /// Releases to be sent, and local services that start or stop.

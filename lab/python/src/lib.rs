@@ -19,6 +19,7 @@ mod items;
 mod monitor;
 mod place;
 mod quantities;
+mod settings;
 mod verified;
 
 /// The module `mufasa._native`.

@@ -5,28 +5,28 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
-    Accepted, Advice, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings,
+    Accepted, Advice, Arrival, DropReason, Message, Monitor as NativeMonitor, Settings, Stall,
     Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::bridge;
-use mufasa_records::{names, record};
+use mufasa_records::names;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use serde_json::Map;
 
 use crate::actions::{Actions, ToDo};
 use crate::arguments::{
-    CheckTime, MostStations, OneGroup, OneOfGroups, OneProfile, Period, Session, SessionsBefore,
-    Station, StepPs, in_domain,
+    CheckTime, GivenBack, MostStations, OneGroup, OneOfGroups, OneProfile, Period, Session,
+    SessionsBefore, Station, StepPs,
 };
 use crate::decision::Decision;
-use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, named, no_monitor, wrong};
+use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, no_monitor, wrong};
 use crate::inputs::{Given, Own};
 use crate::items;
 use crate::place::Place;
 use crate::quantities::Time;
+use crate::settings::overridden;
 use crate::verified::{Calls, VerifiedTracks, VerifiedTrajectory};
 
 /// No CAV meets more stations; memory of 5 MB.
@@ -39,8 +39,10 @@ const MOST_STATIONS: usize = 65_536;
 /// defaults by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, two periods and 20 ms by
 /// default, has to be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at
 /// least the last session of earlier lives, so that no message of one fits. ``most_stations``: that ever offer
-/// something, at most 65,536. ``check_time``: how long a cycle may take, any time where it is not given; it has memory
-/// for all of the domain. ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of
+/// something, at most 65,536. ``supervise_local``: whether the CAV's own plan is examined in Local, so that
+/// ``Decision.brake`` says while it fails (F-48). ``stall``: the way, m, and the time after which planning that got no
+/// farther is given back (F-45); never where it is not given. ``check_time``: how long a cycle may take, any time where
+/// it is not given; it has memory for all of the domain. ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of
 /// parameters that are meant although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
 ///
 /// Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken`` when the one
@@ -63,36 +65,33 @@ impl Monitor {
     #[new]
     #[pyo3(signature = (
         period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
-        sessions_before = SessionsBefore(0), most_stations = MostStations(64), check_time = None,
-        step_ps = StepPs(1000), meant = Vec::new()
-    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, check_time=None, step_ps=1000, meant=())")]
+        sessions_before = SessionsBefore(0), most_stations = MostStations(64), supervise_local = false,
+        stall = None, check_time = None, step_ps = StepPs(1000), meant = Vec::new()
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64, supervise_local=False, stall=None, check_time=None, step_ps=1000, meant=())")]
     fn new(
         period: Period,
         profile: OneProfile,
         parameters: Option<&Bound<'_, PyAny>>,
         sessions_before: SessionsBefore,
         most_stations: MostStations,
+        supervise_local: bool,
+        stall: Option<GivenBack>,
         check_time: Option<CheckTime>,
         step_ps: StepPs,
         meant: Vec<String>,
     ) -> PyResult<Self> {
-        let settings = Settings { sessions_before: sessions_before.0, ..Settings::new(period.0) };
+        let settings = Settings::new(period.0);
         let mut settings = meant.iter().fold(settings, |it, field| it.meaning(field));
+        settings.sessions_before = sessions_before.0;
+        settings.supervise_local = supervise_local;
+        settings.stall = stall.map(|GivenBack((way_m, time))| Stall { way_m, time });
         settings.check_time = check_time.map_or(Duration::MAX, |it| it.0);
         settings.step_ps = step_ps.0;
         settings.profile = bridge::profile_to_impl(profile.0);
-        if let Some(parameters) = parameters {
-            let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
-            let json = json.map_err(|error| in_domain(parameters, "parameters", error))?;
-            let mut object: Map<_, _> = serde_json::from_str(&json.extract::<String>()?)
-                .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
-            object.entry("tau").or_insert_with(|| settings.stages.tau.into());
-            object.entry("dt_max_ns").or_insert_with(|| settings.requester.dt_max_ns.into());
-            let (stages, requester) =
-                record::parameters::settings(object).map_err(|it| invalid(named(it)))?;
-            settings.stages = bridge::cycle_parameters(&stages);
-            settings.requester = bridge::parameters_to_impl(&requester);
-        }
+        let settings = match parameters {
+            Some(parameters) => overridden(settings, parameters)?,
+            None => settings,
+        };
         if most_stations.0 > MOST_STATIONS {
             let message = format!("must be at most {MOST_STATIONS}");
             return Err(invalid(wrong("most_stations", message)));

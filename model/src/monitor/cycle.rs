@@ -37,7 +37,9 @@ impl Monitor {
         if local_problem.is_none() {
             self.remember(&own);
         }
-        self.count_use(&cycle);
+        if is_in_time && !lacks_detections(&cycle) {
+            self.count_use(&cycle); // [MON-69]
+        }
 
         let (tracks, trajectory) = match &report {
             Ok(report) if report.failed_stage.is_none() => self.verified(&cycle, report),
@@ -133,7 +135,7 @@ impl Monitor {
         }
     }
 
-    /// Each remote group has a current element in this cycle or has none.
+    /// Each remote group has a current element in this cycle, which counts, or has none.
     fn count_use(&mut self, cycle: &Cycle) {
         let current = |stamp_ns| is_current(cycle.now_ns, stamp_ns, cycle.parameters.max_age_ns);
         let (tracks, trajectory) = (&cycle.tracks, &cycle.trajectory);
@@ -164,9 +166,8 @@ impl Monitor {
             }
         };
         let is_current = |it: &Verified| current(it.stamp_ns);
-        let is_looked_around = cycle.detections.as_ref().is_some_and(|it| current(it.stamp_ns));
-        let is_let_out = is_looked_around || !cycle.profile.has(HardenedRule::H14); // [MON-66]
-        (tracks.filter(is_current), trajectory.filter(|it| is_let_out && is_current(it)))
+        let is_let_out = |it: &Verified| !lacks_detections(cycle) && is_current(it); // [MON-66]
+        (tracks.filter(is_current), trajectory.filter(is_let_out))
     }
 
     /// Whether the decision says `brake`. [MON-47] [MON-48] [MON-49] [MON-52]
@@ -191,4 +192,11 @@ impl Monitor {
         let as_remote = Cycle { configuration, detection_history, ..own };
         supervision::examine(&as_remote, self.misfit(&as_remote).as_ref(), judge)
     }
+}
+
+/// Whether this is a cycle of the hardened profile without current detections. [MON-66] [MON-69]
+fn lacks_detections(cycle: &Cycle) -> bool {
+    let current = |stamp_ns| is_current(cycle.now_ns, stamp_ns, cycle.parameters.max_age_ns);
+    let is_looked_around = cycle.detections.as_ref().is_some_and(|it| current(it.stamp_ns));
+    cycle.profile.has(HardenedRule::H14) && !is_looked_around
 }

@@ -9,7 +9,7 @@
 //! | what a cycle uses | [`elements`], `cycle` |
 //! | the history of detections | [`history`] |
 //! | memory, settings | [`settings`] |
-//! | elements that no cycle can use | [`elements`], [`starvation`] |
+//! | elements that no cycle can use | [`elements`], [`wait`] |
 //! | the wait after a session | [`wait`] |
 //! | when to brake | [`brake_by`] |
 //! | ticks | [`ticks`] |
@@ -22,7 +22,6 @@ pub mod history;
 pub mod messages;
 pub mod settings;
 pub mod stall;
-pub mod starvation;
 pub mod supervision;
 pub mod ticks;
 pub mod wait;

@@ -1,15 +1,13 @@
 //! The two waits of a session, as a small state machine (`spec/monitor.md`, the wait after a session):
 //! its table stands there, and each function is a row.
 
-use super::starvation::is_starved;
-
 /// What is remembered of the use of a running session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Use {
-    /// The time that silence counts from: of the last cycle that had a current element, or of the
-    /// confirmation; lowered by a clock that is set back.
+    /// The time that silence and waits count from: of the last cycle that had a current element, or of the
+    /// confirmation.
     pub since_ns: i64,
-    /// The first cycle that had one; lowered likewise.
+    /// The first cycle that had one.
     pub first_ns: Option<i64>,
     /// Whether the group is starved.
     pub starved: bool,
@@ -21,16 +19,15 @@ impl Use {
         Self { since_ns: t_ns, first_ns: None, starved: false }
     }
 
-    /// A cycle at this time, which has a current element of the group or has none.
-    /// [MON-31] [MON-33] [MON-35] to [MON-37]
+    /// A cycle that counts, at this time, which has a current element of the group or has none.
+    /// [MON-31] [MON-33] [MON-35] [MON-36]
     #[must_use]
     pub fn after_cycle(self, t_ns: i64, has_current: bool, dt_max_ns: i64) -> Self {
-        let first_ns = self.first_ns.map(|first_ns| first_ns.min(t_ns));
         if has_current {
-            return Self { since_ns: t_ns, first_ns: first_ns.or(Some(t_ns)), starved: false };
+            return Self { since_ns: t_ns, first_ns: self.first_ns.or(Some(t_ns)), starved: false };
         }
-        let starved = is_starved(self.starved, self.since_ns, t_ns, dt_max_ns);
-        Self { since_ns: self.since_ns.min(t_ns), first_ns, starved }
+        let without = i128::from(t_ns) - i128::from(self.since_ns);
+        Self { starved: self.starved || without > i128::from(dt_max_ns), ..self }
     }
 
     /// The end of the time without a request when the group returns to local at this time; `None`: nothing

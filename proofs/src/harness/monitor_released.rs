@@ -104,17 +104,20 @@ pub fn verify_an_element_is_the_last_one_used() {
     kani::cover!(is_newest && !is_of_it, "of another session");
 }
 
-/// A tick is in time exactly when it came since the cycle before, not after the cycle and at most `dt_max` before it
-/// [MON-45].
+/// A tick is in time exactly when it came since the cycle before, not before that one, and not after the cycle and at
+/// most `dt_max` before it [MON-45].
 ///
 /// Domain: all times and each `dt_max` of 64 bits. Not covered: that nothing else keeps the last tick.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_tick_is_in_time_up_to_dt_max() {
-    let (ticked_ns, now_ns, dt_max_ns) = (option(time_ns), time_ns(), duration_ns());
-    let found = is_ticked(ticked_ns, now_ns, dt_max_ns);
+    let (ticked_ns, before_ns) = (option(time_ns), option(time_ns));
+    let (now_ns, dt_max_ns) = (time_ns(), duration_ns());
+    let found = is_ticked(ticked_ns, before_ns, now_ns, dt_max_ns);
     let since_ns = ticked_ns.map(|tick_ns| i128::from(now_ns) - i128::from(tick_ns));
-    let expected = since_ns.is_some_and(|it| 0 <= it && it <= i128::from(dt_max_ns));
-    assert!(found == expected);
+    let is_near = since_ns.is_some_and(|it| 0 <= it && it <= i128::from(dt_max_ns));
+    // None is below every time.
+    assert!(found == (is_near && before_ns <= ticked_ns));
+    kani::cover!(is_near && !found && before_ns < Some(now_ns), "set back");
     kani::cover!(found && since_ns == Some(i128::from(dt_max_ns)), "as old as it may be");
     kani::cover!(!found && since_ns.is_some_and(|it| it < 0), "after the cycle");
     kani::cover!(!found && ticked_ns.is_none(), "none");

@@ -276,7 +276,8 @@ fn told(kind: &EventKind) -> Option<Kind> {
     })
 }
 
-fn brake_from_impl(brake: twin::Brake) -> Brake {
+/// The same reason.
+pub fn brake_from_impl(brake: twin::Brake) -> Brake {
     match brake {
         twin::Brake::NoPlan => Brake::NoTrajectory,
         twin::Brake::Fails { stage, witness } => {

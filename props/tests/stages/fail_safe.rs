@@ -8,7 +8,9 @@ use mufasa::input::profile::HardenedRule;
 use mufasa::input::scratch::Scratch;
 use mufasa::report as twin;
 use mufasa_model::cycle::check;
-use mufasa_model::input::cycle::{Cycle, DetectionList, Lead, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{
+    Cycle, DetectionList, Lead, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
+};
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::with_impl;
@@ -64,6 +66,34 @@ pub fn too_much(cycle: &Cycle) -> Option<i64> {
     let report = check(cycle, Reading::Strict).expect("valid");
     let witness = report.witness().filter(|witness| witness.rule == Rule::WorkLimit)?;
     witness.compared[0].to_string().parse().ok()
+}
+
+/// H-14.67, MARGIN-01: the path leads back to about 1/8 m behind p, or a point that is no node behind one before it.
+#[test]
+fn going_back() {
+    let (title, profile) = ("H-14, going back", Profile::HARDENED);
+    let tally = hold(cases() / 4, title, profile, leads_back, near_threshold, conforming);
+    tally.assert_aimed(&["ii", "safe"]);
+}
+
+fn leads_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let frame = base::frame(draw);
+    let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);
+    let (far, behind) = if draw.one_in(2) {
+        (draw.range(0.2, 2.0), draw.near(-0.125))
+    } else {
+        let far = draw.range(0.0, 0.12);
+        (far, draw.near(far - 0.125))
+    };
+    cycle.parameters.step_max_ns = 60_000_000_000;
+    let ahead = [(0, 0.0), (200_000_000, far), (25_000_000_000, behind), (26_000_000_000, behind)];
+    let point = |(after_ns, f): (i64, f64)| {
+        let (x, y) = frame.at(f, 0.0);
+        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos: frame.cos, sin: frame.sin }
+    };
+    cycle.trajectory =
+        Some(Trajectory { stamp_ns: cycle.now_ns, points: ahead.map(point).to_vec() });
+    cycle
 }
 
 /// H-14.42: a path that may have thousands of places.
@@ -198,7 +228,7 @@ fn a_path_that_bends_as_much_as_it_may() {
     let is_safe = |cycle: &Cycle| reports(cycle)[0].failed_stage.is_none();
     let (mut rng, mut few, mut many) = (ChaCha8Rng::seed_from_u64(0), 0, 0);
     let beside = fail_safe::AIMS.iter().position(|(name, _)| *name == "beside").expect("an aim");
-    for case in 0..120 {
+    for case in 0..200 {
         let tape: Vec<u32> = (0..200).map(|_| rng.random()).collect();
         let draw = &mut Draw::new(&tape);
         let sign = if case % 4 < 2 { 1.0 } else { -1.0 };

@@ -28,6 +28,9 @@ const NEAREST: f64 = 0.09;
 const FARTHEST: f64 = 20.0;
 /// How far to the side, for each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 0.1;
+/// So much nearer than at p the CAV certainly may come to who keeps to its lane, m: less than the 1/8 m of H-14.43 by more
+/// than two distances err.
+const NEARER: f64 = 0.125 - 4.0 * ERROR;
 
 /// An object that moves.
 pub(super) struct Passing {
@@ -40,6 +43,8 @@ pub(super) struct Passing {
     pub(super) is_behind: bool,
     /// Whether it certainly does, at 45 degrees at most.
     pub(super) comes_towards: bool,
+    /// Whether it certainly goes ahead along the CAV's heading.
+    pub(super) goes_ahead: bool,
     /// H(w), s.
     pub(super) until: f64,
 }
@@ -63,8 +68,8 @@ impl<'c, 'a> Beside<'c, 'a> {
     /// Whether the object certainly does (H-14.36), if it does not lie across the way.
     pub(super) fn keeps(&mut self, object: &Passing, work: &Work) -> bool {
         let new = || Lane::new(&self.path, self.route, self.aside);
-        let Lane { sides, hint } = *self.lane.get_or_insert_with(new);
-        let Some([least, greatest]) = sides else { return false };
+        let Lane { of_p_and_all, hint } = *self.lane.get_or_insert_with(new);
+        let Some([of_p, of_all]) = of_p_and_all else { return false };
         if !object.comes_towards && !self.is_straight() {
             return false;
         }
@@ -79,10 +84,31 @@ impl<'c, 'a> Beside<'c, 'a> {
         //
         let [length, width] = object.half;
         let askew = ASKEW * (object.speed * object.until + length + width);
-        let room = larger(least - away, away - greatest) - ERROR - askew;
+        let [least, greatest] = of_all.away;
+        let (nearer, farther) = (least - away, away - greatest);
+        let room = larger(nearer, farther) - ERROR - askew - self.sagitta(object);
+        // H-14.43
+        let comes_no_nearer = |side| match side {
+            _ if nearer > farther => least > of_p.away[0] - NEARER,
+            Some(Side::Left) => of_all.left[1] < of_p.left[1] + NEARER,
+            Some(Side::Right) => of_all.left[0] > of_p.left[0] - NEARER,
+            None => false,
+        };
         // H-14.44
         let mut nearest = self.route.nearest(object.centre, away);
-        nearest.all(|segment| needed(object, segment.towards(object.centre)) < room)
+        nearest.all(|segment| {
+            let keeps_lane = object.is_behind && comes_no_nearer(side(object.centre, &segment));
+            needed(object, segment.towards(object.centre), keeps_lane) < room
+        })
+    }
+
+    /// How much nearer to each other the object and the CAV are on a bend (H-14.42), m.
+    fn sagitta(&self, object: &Passing) -> f64 {
+        let radius = if object.goes_ahead { STRAIGHT } else { RADIUS };
+        let ego = &self.path.nodes.cycle.ego;
+        let [length, width] = object.half;
+        let (half, ego) = (larger(length, width), larger(ego.length, ego.width));
+        (4.0 * half * half + ego * ego) / (6.0 * radius)
     }
 
     /// Whether lanes certainly run straight on for who does not come towards the CAV.
@@ -92,24 +118,79 @@ impl<'c, 'a> Beside<'c, 'a> {
     }
 }
 
-/// How much room an object needs along q (H-14.42), m.
-fn needed(object: &Passing, q: [f64; 2]) -> f64 {
-    let &Passing { direction, half: [length, width], velocity, speed, is_behind, until, .. } =
-        object;
+/// How much room an object needs along q without the sagitta (H-14.42), m. `keeps_lane`: where it drifts little.
+fn needed(object: &Passing, q: [f64; 2], keeps_lane: bool) -> f64 {
+    let &Passing { direction, half: [length, width], velocity, speed, until, .. } = object;
     let away = libm::sqrt(q[0] * q[0] + q[1] * q[1]);
     let drift = (velocity[0] * q[0] + velocity[1] * q[1]).abs() / away;
     // H-14.43
-    let keeps_lane = is_behind && drift < speed * (DRIFT - ERROR);
+    let keeps_lane = keeps_lane && drift < speed * (DRIFT - ERROR);
     let [along, across] = split(direction, q);
     (along.abs() * length + across.abs() * width) / away
         + if keeps_lane { 0.0 } else { drift * until }
 }
 
-/// How far places reach to the sides of the reference path, all of them together.
+/// What the CAV covers beside the reference path, each from the least to the greatest, m.
+#[derive(Clone, Copy, Debug)]
+struct Covered {
+    /// By the distance.
+    away: [f64; 2],
+    /// By how far it is to the left.
+    left: [f64; 2],
+}
+
+impl Covered {
+    /// Of a place for one segment: for every side that may be its, and for some.
+    fn both(away: f64, side: Option<Side>, reach: f64) -> [Self; 2] {
+        let [right, left] = match side {
+            Some(Side::Left) => [away; 2],
+            Some(Side::Right) => [-away; 2],
+            None => [-away, away],
+        };
+        let away = [away - reach, away + reach];
+        [[left - reach, right + reach], [right - reach, left + reach]]
+            .map(|left| Self { away, left })
+    }
+
+    /// What one or the other covers.
+    fn or(self, other: Self) -> Self {
+        let or = |a: [f64; 2], b: [f64; 2]| [smaller(a[0], b[0]), larger(a[1], b[1])];
+        Self { away: or(self.away, other.away), left: or(self.left, other.left) }
+    }
+
+    /// What both cover, whose least may be beyond its greatest.
+    fn and(self, other: Self) -> Self {
+        let and = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), smaller(a[1], b[1])];
+        Self { away: and(self.away, other.away), left: and(self.left, other.left) }
+    }
+}
+
+/// A side of a segment.
+#[derive(Clone, Copy, Debug)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// On which side of a segment a point certainly is.
+fn side(x: [f64; 2], segment: &Segment) -> Option<Side> {
+    let way @ [u, v] = segment.way();
+    let [_, left] = split(way, minus(x, segment.from));
+    if left * left <= ERROR * ERROR * (u * u + v * v) {
+        None
+    } else if left > 0.0 {
+        Some(Side::Left)
+    } else {
+        Some(Side::Right)
+    }
+}
+
+/// The path as it lies beside the reference path.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
-    /// A and B of the text, m; none where the path may bend too much, lie beyond an end of the route, or end anywhere.
-    sides: Option<[f64; 2]>,
+    /// What p covers whichever segment is meant, and what all places do. None where the path may bend too much, lie
+    /// beyond an end of the route, or end anywhere.
+    of_p_and_all: Option<[Covered; 2]>,
     /// A segment that is near.
     hint: usize,
 }
@@ -120,27 +201,30 @@ impl Lane {
         let mut hint = 0;
         route.in_corridor([ego.x, ego.y], &mut hint);
         if turns(route, ego, RADIUS) {
-            return Self { sides: None, hint };
+            return Self { of_p_and_all: None, hint };
         }
         let pieces = path.pieces();
         let mut places = pieces.flat_map(|piece| (0..piece.count()).map(move |k| (piece, k)));
-        let sides = places.try_fold([f64::MAX, f64::MIN], |[least, greatest], place| {
-            let (away, reach) = reach(ego, place, route, &mut hint)?;
-            let reach = reach + aside;
-            Some([smaller(least, away - reach), larger(greatest, away + reach)])
+        let of_p_and_all = places.try_fold(None, |both: Option<[Covered; 2]>, place| {
+            let each = covered(ego, place, &route, aside, &mut hint)?;
+            Some(Some(match both {
+                None => each.reduce(|[of_p, all], [also, it]| [of_p.and(also), all.or(it)])?,
+                Some([of_p, all]) => [of_p, each.fold(all, |all, [_, it]| all.or(it))],
+            }))
         });
-        Self { sides, hint }
+        Self { of_p_and_all: of_p_and_all.flatten(), hint }
     }
 }
 
-/// `D_k` and `E_k` without the widening, m; none where the path may bend too much, lie beyond an end of the route, or end
-/// anywhere. `hint`: a segment that is near.
-fn reach(
-    ego: &Ego,
+/// What the CAV covers at a place for each nearest segment: for every side that may be its, and for some; none where the path
+/// may bend too much, lie beyond an end of the route, or end anywhere. `hint`: a segment that is near.
+fn covered<'r>(
+    ego: &'r Ego,
     (piece, k): (Piece, i64),
-    route: IndexedRoute<'_, '_>,
+    route: &'r IndexedRoute<'_, '_>,
+    aside: f64,
     hint: &mut usize,
-) -> Option<(f64, f64)> {
+) -> Option<impl Iterator<Item = [Covered; 2]> + 'r> {
     let ([x, y], [cos, sin]) = (piece.plainly(k, [0.0; 2]), piece.heading());
     let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
     let h = [ego.cos, ego.sin];
@@ -153,8 +237,10 @@ fn reach(
     }
     let (away, near) = route.about(centre, *hint);
     *hint = near;
-    let extents = route.nearest(centre, away).map(|it| extent(ego, [cos, sin], &it));
-    Some((away, extents.fold(0.0, larger)))
+    Some(route.nearest(centre, away).map(move |segment| {
+        let reach = extent(ego, [cos, sin], &segment) + aside;
+        Covered::both(away, side(centre, &segment), reach)
+    }))
 }
 
 /// Whether a segment of the route may turn more than a bend of that radius does (H-14.40), m; none

@@ -276,6 +276,7 @@ impl<'c, 'a> Places<'c, 'a> {
             speed: exact.speed.value(),
             is_behind: exact.is_behind,
             comes_towards: across.certainly_at_most(-along),
+            goes_ahead: Real::ZERO.certainly_below(along),
             until: self.until_yielded(exact.speed).value(),
         };
         self.beside.keeps(&passing, boxes.2) && !self.may_lie_across(&object.standing(from), boxes)

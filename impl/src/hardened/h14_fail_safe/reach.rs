@@ -16,6 +16,8 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
+/// How far behind p a place may be, or a point that is no node behind an earlier one, m.
+const BACK: f64 = 0.125;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
 /// without that stage ii of W1 and W2 takes a third more instructions. `aside`: not below any excess, m.
@@ -33,9 +35,15 @@ pub(crate) fn reach_failure(
         let witness = || Witness::of(Rule::Reach, [excess, tolerance].map(Real::value));
         (may_exceed && !excess.certainly_at_most(tolerance)).then(witness)
     };
+    let mut farthest = None;
     let mut others = nodes.others(points).iter().enumerate();
     let beyond = others.find_map(|(index, point)| {
-        failure(excess.of_point(point)).map(|witness| witness.at_point(index))
+        let at = Vector::new(point.x, point.y) - vector(p);
+        let progress = at.dot(vector([cycle.ego.cos, cycle.ego.sin]));
+        let ahead = farthest.map_or(progress, |it: Real| it.max(progress));
+        farthest = Some(ahead);
+        let found = failure(excess.of_point(point)).or_else(|| back_failure(ahead - progress));
+        found.map(|witness| witness.at_point(index))
     });
     if beyond.is_some() {
         return beyond;
@@ -60,7 +68,8 @@ pub(crate) fn reach_failure(
             }
             let found = failure(excess.of_place(&place.pose))
                 .or_else(|| length_failure(piece.length_at(place), &path.times))
-                .or_else(|| heading_failure(cycle, place));
+                .or_else(|| heading_failure(cycle, place))
+                .or_else(|| back_failure(-place.progress));
             found.map(|witness| witness.at_point(place.point(points.len())))
         })
     })
@@ -89,6 +98,14 @@ fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {
     (!arc[0].certainly_at_most(arc[1])).then(witness)
 }
 
+/// So far behind p, or a point before, m.
+fn back_failure(back: Real) -> Option<Witness> {
+    // H-14.67
+    let most = Real::new(BACK);
+    let witness = || Witness::of(Rule::Reach, [back, most].map(Real::value));
+    (!back.certainly_at_most(most)).then(witness)
+}
+
 /// What plain doubles say, from p on: they err by less than 2^-20 m up to 2^26 m, and by less than 1e-12
 /// of what is farther.
 struct Plain {
@@ -107,14 +124,16 @@ impl Plain {
         length < self.longest * (1.0 - 1e-9) - 1e-6
     }
 
-    /// Whether the heading certainly is near to that of an arc at all that is between two places: f is greatest at one of
-    /// them, the way aside least at one or 0.
+    /// Whether all that is between two places certainly is not behind p, and the heading near to that of an arc there: f is
+    /// greatest and least at one of them, the way aside least at one or 0.
     fn is_along(&self, ends: [[f64; 2]; 2], heading: [f64; 2]) -> bool {
         let [along, turned] = split(self.h, heading);
         let [[f, aside], [f_to, aside_to]] = ends.map(|place| split(self.h, place));
         let apart = aside * aside_to > 0.0;
         let aside = if apart { smaller(aside.abs(), aside_to.abs()) } else { 0.0 };
-        let f = larger(larger(f, f_to), 0.0);
-        along > 1e-6 && f * (turned.abs() - TURNED) + 1e-6 + 1e-9 * f < 2.0 * aside + ASIDE
+        let (behind, f) = (-smaller(f, f_to), larger(larger(f, f_to), 0.0));
+        behind < BACK - 1e-6
+            && along > 1e-6
+            && f * (turned.abs() - TURNED) + 1e-6 + 1e-9 * f < 2.0 * aside + ASIDE
     }
 }

@@ -108,8 +108,8 @@ impl<'a> Stations<'a> {
         // The session 0 of a station never asked is below every other, and no two stations
         // share another one, so ids decide among stations never asked and nowhere else.
         // REQ-07, REQ-08
-        let order = |record: &&StationRecord| (*record.last_request.get(group), record.station);
-        offering.min_by_key(order).map(|record| record.station)
+        let order = |record: &StationRecord| (*record.last_request.get(group), record.station);
+        offering.map(order).min().map(|(_, station)| station)
     }
 
     /// Remembers that `station` was asked for `group`.

@@ -1,8 +1,6 @@
 //! A disagreement in words: what the program answered, what is right, and the two numbers that
 //! decide.
 
-mod edges;
-
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Witness};
@@ -137,8 +135,7 @@ fn verdict(exact: &Answer, answered: &Answered) -> String {
 }
 
 /// The comparison that decides: that of the exact model's witness, or where it passes the one that a
-/// growing margin first makes fail; but one at the edge of the field of view or of the corridor when
-/// it is nearer to its threshold.
+/// growing margin first makes fail; none where the edge of the field of view or of the corridor may be what decides.
 fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers> {
     let report = exact.as_ref().ok()?;
     let answer = answer_of(answered)?;
@@ -151,15 +148,9 @@ fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers>
         }
         None => MARGINS_M.into_iter().find_map(|margin| strictly(cycle, margin, said?)),
     };
-    let apart = told.as_ref().map(|(it, ..)| (it.compared[0] - it.compared[1]).abs());
-    let edge = edges::nearest(cycle, said);
-    if let Some(edge) = edge.filter(|edge| apart.is_none_or(|apart| edge.margin_m() < apart)) {
-        let [left, right] = edge.compared.map(decimal);
-        let margin = format!("{} m", decimal(edge.margin_m()));
-        return Some(Numbers { what: edge.what, left, right, margin });
-    }
     let (witness, near, what) = told?;
-    let hides = near.is_some_and(|near| apart.is_some_and(|apart| apart > FAR * near));
+    let apart = (witness.compared[0] - witness.compared[1]).abs();
+    let hides = near.is_some_and(|near| apart > FAR * near);
     if hides && is_behind_an_edge(witness.rule) {
         return None;
     }
@@ -167,7 +158,7 @@ fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers>
     let margin = match (near, report.failed_stage) {
         (Some(near), None) => format!("at most {near}"),
         (Some(near), Some(_)) => format!("at most {near}: with it the model could answer the same"),
-        (None, _) => decimal(apart?),
+        (None, _) => decimal(apart),
     };
     Some(Numbers { what, left, right, margin })
 }

@@ -32,7 +32,7 @@ const FIELDS: [&str; 15] = [
 /// one of the two states. The first that fits is told.
 const REQUIREMENTS: [(&str, &str, &str, &str); 17] = [
     ("dropped", "", r#""stale""#, "MON-30"),
-    ("dropped", "", r#""starved""#, "MON-31, MON-32, MON-33, MON-63"),
+    ("dropped", "", r#""starved""#, "MON-31, MON-32, MON-33, MON-69"),
     ("dropped", "", r#""does_not_fit""#, "MON-20"),
     ("dropped", "", "", "MON-08, MON-09"),
     ("hold_until_ns", "tick", "", "MON-34 to MON-38, MON-43, MON-44, MON-58, MON-64"),

@@ -18,7 +18,7 @@ use mufasa_records::record::offloading::Offloading;
 use mufasa_records::{self as json, Answer, Sequence, Trace, cycle_to_line};
 
 /// What is added to the note of a cycle that an implementation may answer either way.
-pub const STAYS: &str = "Stays, though an implementation may answer otherwise here (the strict \
+const STAYS: &str = "Stays, though an implementation may answer otherwise here (the strict \
                          model fails earlier): it is the exact answer at the threshold.";
 
 /// A record with the answer that it must get (`spec/5-interfaces.md#vectors`).

@@ -3,7 +3,6 @@
 mod common;
 mod examples;
 mod fields;
-mod noise;
 mod protocol;
 mod round_trip;
 mod schema;

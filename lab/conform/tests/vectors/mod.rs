@@ -1,7 +1,5 @@
 //! The vectors of `vectors/`: `spec/5-interfaces.md#vectors`.
 
-mod implementation;
-mod mutants;
 mod norm;
 mod published;
 mod schemas;

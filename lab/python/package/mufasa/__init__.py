@@ -52,7 +52,7 @@ from ._types import (
     Trajectory,
     TrajectoryPoint,
 )
-from ._verdict import FailedStage, InputProblem, Stage, StageOutcome, Verdict
+from ._verdict import Brake, FailedStage, InputProblem, Stage, StageOutcome, Verdict
 
 __all__ = [
     "__version__",
@@ -61,6 +61,7 @@ __all__ = [
     "ActionsNotTaken",
     "Activate",
     "ATTACKS",
+    "Brake",
     "check",
     "Configuration",
     "CrossSection",

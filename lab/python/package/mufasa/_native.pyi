@@ -22,7 +22,7 @@ from ._types import (
     Trajectory,
     TrajectoryPoint,
 )
-from ._verdict import Verdict
+from ._verdict import Brake, Verdict
 
 __all__ = [
     "ATTACKS",
@@ -201,6 +201,11 @@ class Decision:
         """What local input is invalid; then the cycle is unsafe."""
 
     @property
+    def brake(self) -> Brake | None:
+        """Why control has to brake with at least ``a_b`` along what it followed last, from this cycle on until one says
+        None: the CAV's own plan is missing or fails. Only with ``supervise_local``."""
+
+    @property
     def actions(self) -> Actions:
         """Releases to be sent, and local services that start or stop."""
 
@@ -214,8 +219,10 @@ class Monitor:
     ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults
     by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, two periods and 20 ms by default, has to
     be above the period, and ``tau`` is three periods and 0.1 s by default. ``sessions_before``: at least the last session of earlier lives, so that no
-    message of one fits. ``most_stations``: that ever offer something, at most 65,536. ``check_time``: how long a
-    cycle may take, any time where it is not given; it has memory for all of the domain.
+    message of one fits. ``most_stations``: that ever offer something, at most 65,536.
+    ``supervise_local``: whether the CAV's own plan is examined in Local, so that ``Decision.brake`` says while it fails
+    (F-48). ``stall``: the way, m, and the time after which planning that got no farther is given back (F-45); never where
+    it is not given. ``check_time``: how long a cycle may take, any time where it is not given; it has memory for all of the domain.
     ``step_ps``: what a step costs here (``spec/4-arithmetic.md#steps``). ``meant``: names of parameters that are meant
     although no road vehicle has such a value (``spec/4-arithmetic.md#usual-settings``).
 
@@ -232,6 +239,8 @@ class Monitor:
         parameters: dict[str, Any] | None = None,
         sessions_before: int = 0,
         most_stations: int = 64,
+        supervise_local: bool = False,
+        stall: tuple[float, timedelta] | None = None,
         check_time: timedelta | None = None,
         step_ps: int = 1000,
         meant: Sequence[str] = (),

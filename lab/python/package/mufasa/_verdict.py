@@ -66,6 +66,25 @@ class Verdict:
         return None if self._checked is None else self.to_svg()
 
 
+@dataclass(frozen=True)
+class Brake:
+    """Why control has to brake: one of these is given."""
+
+    failed_stage: FailedStage | None = None
+    """Where the CAV's own plan fails."""
+    witness: dict[str, Any] | None = None
+    """The numbers that were compared there; None where nothing compared the plan with obstacles."""
+    input: InputProblem | None = None
+    """What is invalid."""
+    missing: Literal["trajectory"] | None = None
+    """The CAV has no current plan of its own."""
+
+
+def brake_of(line: str) -> Brake:
+    """The reason of a decision as JSON."""
+    return Brake(**json.loads(line))
+
+
 def of_answer(line: str) -> Verdict:
     """The verdict of an answer as JSON."""
     answer = json.loads(line)

@@ -139,6 +139,10 @@ pub struct BesideRoute {
     a: Real,
     /// The greatest D_k + E_k of all places, m.
     b: Real,
+    /// Of p alone the greatest D_0 - E_0, m.
+    a_0: Real,
+    /// C and C_0, m, for an object on the left and for one on the right.
+    c_and_c_0: [[Real; 2]; 2],
     /// The rectangle of the CAV at each place.
     cavs: Vec<Rectangle>,
     /// No c_k lies beyond an end of an open route, and the path bends as the route does.
@@ -157,20 +161,25 @@ impl BesideRoute {
         reference_path.retain(|[from, to]| from != to);
         let places: Vec<Place> = places(scene, trajectory).collect();
         let widening = wider_by(scene, trajectory);
-        let [a, b] = a_and_b(scene, &reference_path, &places, &widening);
+        let covered = |places: &[Place]| covered_across(scene, &reference_path, places, &widening);
+        let (all, of_p) = (covered(&places), covered(&places[..1]));
+        let a = least(all.iter().map(Covered::near));
+        let b = greatest(all.iter().map(Covered::far));
+        let a_0 = greatest(of_p.iter().map(Covered::near));
+        let c_and_c_0 = [1, -1].map(|s| [greatest(towards(s, &all)), least(towards(s, &of_p))]);
         let is_along = places.iter().all(|Place { pose, progress, .. }| {
             let Frame { origin: c_k, direction: h_k } = cav(scene, pose).frame;
             is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, progress)
         });
         let cavs = places.iter().map(|place| wider(scene, &widening, &place.pose)).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
-        Self { reference_path, a, b, cavs, is_along, bends_little, bends }
+        Self { reference_path, a, b, a_0, c_and_c_0, cavs, is_along, bends_little, bends }
     }
 
     /// w is not 0, it goes along, 0 < D <= 20 m, nothing of it is where the path leads, and nothing comes there,
     /// measured along the route:
-    /// max(A - D, D - B) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
-    /// Strictly D > 0.1 m, and max(A - D, D - B) is less by 10^-6 abs(w) H(w).
+    /// (max(A - D, D - B) - M - sagitta) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    /// Strictly D > 0.1 m, and max(A - D, D - B) is less by 10^-6 abs(w) H(w), too.
     pub fn keeps_beside(&self, scene: &Scene, motion: &Motion, behind: bool) -> bool {
         let (w, h_ego, zero) = (&motion.w, &scene.ego.heading, Real::zero());
         if w.squared() == zero {
@@ -186,12 +195,14 @@ impl BesideRoute {
         } else {
             [zero.clone(), zero]
         };
-        let apart = (&self.a - &d).max(&d - &self.b) - big_m(scene) - rounded;
+        let room = big_m(scene) + rounded + sagitta(scene, motion);
+        let apart = (&self.a - &d).max(&d - &self.b) - room;
         let is_apart = |segment: &&Segment| {
             let q = &c - &nearest_point(&c, segment);
             let half = (dir.dot(&q).abs() * &length + dir.cross(&q).abs() * &width)
                 / Real::from_integer(2);
-            &apart * &d > half + w.dot(&q).abs() * t_h(scene, motion, &q, &d, behind)
+            let sides = sides(scene, &c, segment);
+            &apart * &d > half + w.dot(&q).abs() * self.t_h(scene, motion, &q, &d, &sides, behind)
         };
         let margin = margin(scene, motion);
         let lies_across =
@@ -205,6 +216,38 @@ impl BesideRoute {
             && nearest.iter().all(is_apart)
             && !self.cavs.iter().any(lies_across)
     }
+
+    /// t_H = H(w), but 0 for who is behind, drifts by at most abs(w . q) <= abs(w) D (1/10 - M), and to whom the CAV
+    /// comes no nearer than at p, s.
+    fn t_h(
+        &self,
+        scene: &Scene,
+        motion: &Motion,
+        q: &Vector,
+        d: &Real,
+        sides: &[i128],
+        behind: bool,
+    ) -> Real {
+        let tenth = Real::from_integer(1) / Real::from_integer(10);
+        let drifts_little = motion.w.dot(q).abs() <= &motion.speed * d * (tenth - big_m(scene));
+        if behind && drifts_little && self.comes_no_nearer(scene, d, sides) {
+            return Real::zero();
+        }
+        h(scene, motion)
+    }
+
+    /// A >= A_0 - (1/8 m - M) where A - D >= D - B; where not, c is on a side, and C <= C_0 + (1/8 m - M).
+    fn comes_no_nearer(&self, scene: &Scene, d: &Real, sides: &[i128]) -> bool {
+        let Self { a, b, a_0, c_and_c_0: [left, right], .. } = self;
+        let eighth = Real::from_integer(1) / Real::from_integer(8) - big_m(scene);
+        let is_within = |[c, c_0]: &[Real; 2]| *c <= c_0 + &eighth;
+        match sides {
+            _ if a - d >= d - b => *a >= a_0 - eighth,
+            [1] => is_within(left),
+            [-1] => is_within(right),
+            _ => false,
+        }
+    }
 }
 
 /// M, the margin of who keeps beside and of where the path ends: strictly the greater of m and 0.0001, else m.
@@ -212,18 +255,69 @@ pub fn big_m(scene: &Scene) -> Real {
     scene.reads.m_at_least(Real::from_double(0.0001))
 }
 
-/// A and B: the least D_k - E_k and the greatest D_k + E_k of all places, m, of several E_k with each.
-fn a_and_b(scene: &Scene, path: &[Segment], places: &[Place], widening: &Real) -> [Real; 2] {
+/// The sides of a segment on which a point counts: 1, left of g, where g x (x - a) > N abs(g), -1, right of it, where
+/// that is < - N abs(g), and both where neither. N is M strictly, else 0.
+fn sides(scene: &Scene, x: &Vector, [a, b]: &Segment) -> Vec<i128> {
+    let g = b - a;
+    let n = if scene.reads.is_strict() { big_m(scene) } else { Real::zero() };
+    let (across, bound) = (g.cross(&(x - a)), n * g.length());
+    match across {
+        _ if across > bound => vec![1],
+        _ if across < -bound => vec![-1],
+        _ => vec![1, -1],
+    }
+}
+
+/// What the CAV covers across a nearest segment at a place: D_k and E_k, m, and the sides of c_k.
+struct Covered {
+    d_k: Real,
+    e_k: Real,
+    sides: Vec<i128>,
+}
+
+impl Covered {
+    /// D_k - E_k, m.
+    fn near(&self) -> Real {
+        &self.d_k - &self.e_k
+    }
+
+    /// D_k + E_k, m.
+    fn far(&self) -> Real {
+        &self.d_k + &self.e_k
+    }
+}
+
+/// Each s D_k + E_k for an object on that side, m.
+fn towards(side: i128, covered: &[Covered]) -> impl Iterator<Item = Real> {
+    covered.iter().flat_map(move |Covered { d_k, e_k, sides }| {
+        sides.iter().map(move |of_cav| Real::from_integer(side * of_cav) * d_k + e_k)
+    })
+}
+
+/// That of each place, of several nearest segments with each.
+fn covered_across(
+    scene: &Scene,
+    path: &[Segment],
+    places: &[Place],
+    widening: &Real,
+) -> Vec<Covered> {
     let covered = places.iter().flat_map(|place| {
         let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
         let (d_k, nearest) = nearest(scene, path, &c_k);
-        nearest.into_iter().map(move |[from, to]| {
+        nearest.into_iter().map(move |segment @ [from, to]| {
             let e_k = e_k(scene, &h_k, &(to - from)) + widening;
-            [&d_k - &e_k, &d_k + e_k]
+            Covered { d_k: d_k.clone(), e_k, sides: sides(scene, &c_k, segment) }
         })
     });
-    let both = covered.reduce(|[a, b], [least, most]| [a.min(least), b.max(most)]);
-    both.expect("p is a place, and a segment is the nearest")
+    covered.collect()
+}
+
+fn least(each: impl Iterator<Item = Real>) -> Real {
+    each.min().expect("p is a place, and a segment is the nearest")
+}
+
+fn greatest(each: impl Iterator<Item = Real>) -> Real {
+    each.max().expect("p is a place, and a segment is the nearest")
 }
 
 /// E_k without the widening: (abs(h_k . g) W + abs(h_k x g) L) / (2 abs(g)), m.
@@ -232,13 +326,14 @@ fn e_k(scene: &Scene, h_k: &Vector, g: &Vector) -> Real {
     twice * g.length() / (Real::from_integer(2) * g.squared())
 }
 
-/// t_H = H(w), but 0 for who is behind and drifts by at most abs(w . q) <= abs(w) D (1/10 - M), s.
-fn t_h(scene: &Scene, motion: &Motion, q: &Vector, d: &Real, behind: bool) -> Real {
-    let tenth = Real::from_integer(1) / Real::from_integer(10);
-    if behind && motion.w.dot(q).abs() <= &motion.speed * d * (tenth - big_m(scene)) {
-        return Real::zero();
-    }
-    h(scene, motion)
+/// (the longer side of the object ^2 + that of the CAV ^2) / (6 R), R = 300 m where w . h > m, 30 m where not, m.
+fn sagitta(scene: &Scene, motion: &Motion) -> Real {
+    let goes_the_same_way = scene.reads.greater(&motion.w.dot(&scene.ego.heading), &Real::zero());
+    let r = Real::from_integer(if goes_the_same_way { 300 } else { 30 });
+    let (object, ego) = (&motion.object, &scene.ego);
+    let longer = |a: &Real, b: &Real| a.clone().max(b.clone()).square();
+    let both = longer(&object.length, &object.width) + longer(&ego.length, &ego.width);
+    both / (Real::from_integer(6) * r)
 }
 
 /// H(w) = max(T, tau + t_yield + abs(w) / (2 a_yield)), s: who comes later can still stop.

@@ -1,5 +1,6 @@
 //! Reach: the excess of no point that is no node and of no place is above lateral_tolerance, the path is not too long,
-//! and no place is turned farther than an arc to it (`spec/hardened/H-14.md#requirements-reach`).
+//! no place is turned farther than an arc to it, and neither places nor points that are no nodes lead back by more than
+//! 1/8 m (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::excess::{
     aside, is_aside, is_aside_or_turned, no_nodes, of_place, of_point,
@@ -15,16 +16,22 @@ use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 
 /// The excess of a point that is no node, or of a place other than p, is above lateral_tolerance, or the length at a
-/// place is above 2 s_stop + 1 m, or a place is turned farther than an arc to it.
+/// place is above 2 s_stop + 1 m, or a place is turned farther than an arc to it, or a place is more than 1/8 m behind
+/// p, or a point that is no node that far behind a point before it.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let of_points = no_nodes(scene, trajectory)
-        .map(|x| excess_failure(scene, is_aside(scene, x), || of_point(scene, x)))
+        .zip(ways_back(scene, trajectory))
+        .map(|(x, back)| {
+            excess_failure(scene, is_aside(scene, x), || of_point(scene, x))
+                .or_else(|| back_failure(scene, &back))
+        })
         .enumerate();
     let of_places = places(scene, trajectory).map(|place| {
         let is_asked = is_aside_or_turned(scene, &place.pose);
         excess_failure(scene, is_asked, || of_place(scene, &place.pose))
             .or_else(|| length_failure(scene, &place))
             .or_else(|| heading_failure(scene, &place))
+            .or_else(|| back_failure(scene, &-&place.progress))
     });
     let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
     all.find_map(|(i, failure)| Some(failure?.at_point(i)))
@@ -64,6 +71,22 @@ fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     let (turned, limit) =
         (&f * h.cross(h_k).abs(), turn * &f + Real::from_integer(2) * aside + offset);
     Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
+}
+
+/// back <= 1/8 m: how far a place is behind p, or a point that is no node behind a point before it.
+fn back_failure(scene: &Scene, back: &Real) -> Option<Witness> {
+    let eighth = least_ahead();
+    Witness::unless(scene.reads.at_most(back, &eighth), Rule::Reach, back, &eighth)
+}
+
+/// Of each point that is no node, by how much its progress is below the greatest of its own and of all points before
+/// it, m: 0 where none before is farther ahead.
+fn ways_back(scene: &Scene, trajectory: &[Point]) -> impl Iterator<Item = Real> {
+    no_nodes(scene, trajectory).scan(None, |farthest: &mut Option<Real>, x| {
+        let progress = ahead(scene, x);
+        *farthest = farthest.take().max(Some(progress.clone()));
+        Some(farthest.clone()? - progress)
+    })
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before

@@ -156,6 +156,21 @@ fn the_bound_of_sideways_motion_is_included() {
     assert!(!all_seen(&cycle)[0].is_confirmed);
 }
 
+/// MARGIN-10: what is exactly delta from its bound is too close to call.
+#[test]
+fn a_speed_exactly_delta_above_v_object_is_ambiguous() {
+    let with = |vx: f64| {
+        let mut cycle = driving(&[250, 500]);
+        cycle.parameters.delta = 1.0 / 1024.0;
+        cycle.tracks.as_mut().expect("set").items[0].vx = vx;
+        cycle
+    };
+    let bound = with(0.0).parameters.v_object;
+    let [above, below] = [bound + 1.0 / 1024.0, bound - 1.0 / 1024.0];
+    assert!(is_ambiguous(&with(above)) && is_ambiguous(&with(below)));
+    assert!(!is_ambiguous(&with(above.next_up())) && !is_ambiguous(&with(below.next_down())));
+}
+
 /// MARGIN-10, MARGIN-11: the strict reading asks only when stage i runs, and of every received track.
 #[test]
 fn ambiguity_fails_stage_i_and_no_other() {

@@ -13,7 +13,8 @@ use super::{shape, unit};
 /// would come nearer in the time that it has.
 pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let road = shape::frame(cycle);
-    let apart = draw.pick(&[0.0, 6.0, 10.0]);
+    // From the last of them the CAV crosses the reference path to who is on the left.
+    let apart = draw.pick(&[0.0, 6.0, 10.0, -0.3]);
     let (x, y) = road.at(0.0, -apart);
     let on_route = Frame { x, y, ..road };
     cycle.route = base::road(on_route, 20.0);
@@ -38,6 +39,13 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let drift = if is_behind || draw.one_in(2) { draw.near(drift) } else { drift };
     let e = (((speed * speed - drift * drift).max(0.0)).sqrt(), -side * drift);
     let velocity = road.turn(e);
+    if is_behind && draw.one_in(4) {
+        // The CAV comes about as near to it as to who keeps to its lane.
+        let (x, y) = road.turn((0.0, side * draw.near(0.125)));
+        for point in cycle.trajectory.iter_mut().flat_map(|it| &mut it.points) {
+            (point.x, point.y) = (point.x + x, point.y + y);
+        }
+    }
     let path = Path::of(cycle);
     // So far aside that who is behind passes the CAV as it is now, which it would follow, and meets it
     // farther on.
@@ -236,7 +244,8 @@ impl<'a> Lane<'a> {
         let least = least.fold(f64::INFINITY, f64::min);
         let horizon = self.path.until(w.0.hypot(w.1));
         let drift = (w.0 * q.0 + w.1 * q.1).abs() / distance;
-        let room = least - drift * horizon;
+        let sagitta = (length * length + ego.length * ego.length) / (6.0 * 30.0);
+        let room = least - sagitta - drift * horizon;
         let (along, across) = (at.cos * q.0 + at.sin * q.1, at.cos * q.1 - at.sin * q.0);
         (2.0 * room * distance - along.abs() * length) / across.abs()
     }

@@ -108,7 +108,7 @@ const PLACES: &[Near] = &[
         c.parameters.tau = 1.0;
     }),
     ("a place behind", PlanRemote, NO_STEPS, |c, e| {
-        let behind = [-0.5, 0.25 + 1.0 / 24.0 + e];
+        let behind = [-0.0625, 0.25 + 1.0 / 1536.0 + e];
         path(c, 5.0, &[[0.0, 0.0], [0.5, 0.0], behind, [0.5, 0.0], [1.5, 0.0]]);
         c.parameters.tau = 0.1;
     }),
@@ -117,7 +117,7 @@ const PLACES: &[Near] = &[
     ("swing of the rear", PlanRemote, NO_STEPS, |c, e| turned(c, -1.0, 1.0, 0.25 + e)),
 ];
 
-/// Points that are no nodes; the trajectory passes through p.
+/// Points that are no nodes; the trajectory passes through p, and where one is behind p it begins there.
 const POINTS: &[Near] = &[
     ("beside p", PlanRemote, NO_STEPS, |c, e| {
         path(c, 5.0, &[[0.0, 0.0], [0.0, 0.25 + e], [0.0, 0.0], [1.0, 0.0]]);
@@ -127,14 +127,13 @@ const POINTS: &[Near] = &[
         path(c, 5.0, &[[0.0, 0.0], point, [0.0, 0.0], [1.0, 0.0]]);
     }),
     ("behind", PlanRemote, NO_STEPS, |c, e| {
-        let point = [-1.0, 0.25 + 1.0 / 6.0 + e];
-        path(c, 5.0, &[[0.0, 0.0], point, [0.0, 0.0], [1.0, 0.0]]);
+        path(c, 5.0, &[[-1.0, 0.25 + 1.0 / 6.0 + e], [0.0, 0.0], [1.0, 0.0]]);
     }),
     ("behind, tyres", PlanRemote, NO_STEPS, |c, e| {
-        path(c, 10.0, &[[0.0, 0.0], [-1.0, -0.25 - TYRES - e], [0.0, 0.0], [1.0, 0.0]]);
+        path(c, 10.0, &[[-1.0, -0.25 - TYRES - e], [0.0, 0.0], [1.0, 0.0]]);
     }),
     ("v = 0", PlanRemote, NO_STEPS, |c, e| {
-        path(c, 0.0, &[[0.0, 0.0], [-1.0, 0.25 + 1.0 / 6.0 + e], [0.0, 0.0]]);
+        path(c, 0.0, &[[-1.0, 0.25 + 1.0 / 6.0 + e], [0.0, 0.0]]);
     }),
 ];
 

@@ -114,23 +114,29 @@ pub(super) fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
     cycle(Track { vx, vy, ..track(1, x, y) })
 }
 
+/// The sagitta of CAV and object, each 4 m long: 32/1800 m = 17.8 mm for who goes the CAV's way, else 32/180 m = 0.178 m.
+pub(super) fn sagitta(vx: f64) -> f64 {
+    (4.0 * 4.0 + 4.0 * 4.0) / (6.0 * if vx > 0.0 { 300.0 } else { 30.0 })
+}
+
 /// The distance of its centre to the reference path differs from that of each place by more than half of both
-/// widths, which are 2 m here.
+/// widths, which are 2 m here, and the sagitta.
 /// H-14.36, H-14.42.
 #[test]
 fn who_keeps_beside_is_beside_the_path() {
     for (x, vx) in [(-10.0, 8.0), (20.0, 8.0), (20.0, -8.0), (0.0, 8.0)] {
-        moves_by_m("half of both widths + M", |e| keeps_beside(&beside(x, 2.0 - e, vx, 0.0)));
-        moves_by_m("to the right", |e| keeps_beside(&beside(x, -2.0 + e, vx, 0.0)));
+        let least = 2.0 + sagitta(vx);
+        moves_by_m("half of both widths + M", |e| keeps_beside(&beside(x, least - e, vx, 0.0)));
+        moves_by_m("to the right", |e| keeps_beside(&beside(x, -least + e, vx, 0.0)));
     }
     assert_eq!(keeps_beside(&beside(20.0, 0.0, 8.0, 0.0)), [false; 3]);
     assert_eq!(keeps_beside(&beside(20.0, 2.5, 0.0, 0.0)), [false; 3], "it may set off");
-    // As it looks: now its length counts.
+    // As it looks: now its length counts, 2 m + 1 m + 0.018 m.
     let turned = |y: f64| {
         let it = Track { cos: 0.0, sin: 1.0, vx: 8.0, ..track(1, -10.0, y) };
         keeps_beside(&cycle(it))[1]
     };
-    assert!(turned(3.01) && !turned(2.99));
+    assert!(turned(3.02) && !turned(3.01));
     // Where it is now: 0.1 s ago it was 0.07 m to the right.
     let mut moving = beside(-10.0, 1.95, 8.0, 0.7);
     assert_eq!(keeps_beside(&moving), [false; 3]);
@@ -164,7 +170,8 @@ fn who_keeps_beside_is_nearer_or_farther_at_every_place() {
         points(&mut cycle).iter_mut().for_each(|point| point.y = 5.0);
         keeps_beside(&cycle)
     };
-    moves_by_m("A - D > 1 m + M", |e| nearer(3.0 + e));
+    // A = 5 m - 1 m.
+    moves_by_m("A - D > 1 m + sagitta + M", |e| nearer(3.0 - sagitta(8.0) + e));
     assert_eq!([0.0, 0.05, 0.1, 0.101].map(nearer), [NO, NEAR_SAFE, NEAR_SAFE, YES]);
     // A CAV as wide as a pole goes 2 m aside, 1/4 m from place to place: the object is between two of them.
     let pole = |y: f64| {
@@ -201,18 +208,74 @@ fn who_keeps_beside_is_not_beyond_an_end() {
 #[test]
 fn who_keeps_beside_does_not_drift_into_the_path() {
     let t_h = |w: f64| 0.5 + 2.0 + w / 6.0;
-    let drift = 0.25 * t_h(8f64.hypot(0.25));
+    let drift = 0.25 * t_h(8f64.hypot(0.25)) + sagitta(8.0);
     for vy in [0.25, -0.25] {
         moves_by_m("drift ahead", |e| keeps_beside(&beside(20.0, 2.0 + drift - e, 8.0, vy)));
     }
     // Strictly 10^-6 of the way until then, too: 1.917 mm.
     let fast = |y: f64| keeps_beside(&beside(-10.0, y, 100.0, 0.0));
-    assert_eq!([2.002, 2.0021].map(fast), [NEAR_SAFE, YES]);
-    assert_eq!(keeps_beside(&beside(-10.0, 2.01, 8.0, -0.25)), [true; 3]);
+    assert_eq!([2.002, 2.0021].map(|y| fast(y + sagitta(8.0))), [NEAR_SAFE, YES]);
+    assert_eq!(keeps_beside(&beside(-10.0, 2.02, 8.0, -0.25)), [true; 3]);
     moves_by_m("abs(w . q) <= abs(w) D (1/10 - M)", |e| {
         keeps_beside(&beside(-10.0, 4.0, 8.0, -8.0 * (0.1 + e).asin().tan()))
     });
     assert_eq!(keeps_beside(&beside(-10.0, 8.0, 8.0, -0.9)), [true; 3], "far enough for more");
+}
+
+/// (length^2 + L^2)/(6 R): an object of 18 m and a CAV of 6 m, 360 m^2, are nearer to each other by 360/1800 m = 0.2 m
+/// where w . h > 0, and by 360/180 m = 2 m where not.
+/// H-14.42, MARGIN-01.
+#[test]
+fn who_keeps_beside_leaves_room_for_the_sagitta() {
+    let long = |y: f64, vx: f64| {
+        let mut cycle = cycle(Track { vx, length: 18.0, ..track(1, 40.0, y) });
+        cycle.ego.length = 6.0;
+        keeps_beside(&cycle)
+    };
+    moves_by_m("the same way", |e| long(2.0 + 0.2 - e, 8.0));
+    moves_by_m("towards", |e| long(2.0 + 2.0 - e, -8.0));
+    moves("w . h > m", |e| keeps_beside(&beside(150.0, 2.1, -e, 0.0)));
+}
+
+/// From its first point on the CAV, now at p, is `aside` of p, and no other place is nearer or farther.
+fn where_the_cav_moves(p: f64, aside: f64, y: f64, vy: f64) -> [bool; 3] {
+    let mut cycle = beside(-10.0, y, 8.0, vy);
+    cycle.ego.y = p;
+    points(&mut cycle).iter_mut().for_each(|point| point.y = p);
+    points(&mut cycle).iter_mut().skip(1).for_each(|point| point.y = p + aside);
+    keeps_beside(&cycle)
+}
+
+/// An object that is behind and drifts by less than a tenth keeps to its lane only where the CAV comes no nearer to it
+/// than at p, but for 1/8 m.
+/// H-14.43, MARGIN-01.
+#[test]
+fn a_cav_that_comes_nearer_leaves_room_for_the_drift() {
+    let with = where_the_cav_moves;
+    // Farther than the CAV by 4 m - 1 m - 0.125 m; it needs 1 m, or with a drift of 0.7 m/s for 3.8 s 3.7 m.
+    moves_by_m("C <= C_0 + 1/8 m - M", |e| with(0.0, 0.125 + e, 4.0, -0.7));
+    moves_by_m("to the right", |e| with(0.0, -0.125 - e, -4.0, 0.7));
+    // Nearer than the CAV by 5 m - 1 m - 0.125 m - 2 m; it needs 1 m, or with a drift of 0.3 m/s for 3.8 s 2.2 m.
+    moves_by_m("A >= A_0 - 1/8 m + M", |e| with(5.0, -0.125 - e, 2.0, 0.3));
+    let away = [with(5.0, 0.25, 2.0, 0.3), with(5.0, -0.25, 9.0, -0.7)];
+    assert_eq!(away, [YES; 2], "the CAV goes away from it");
+}
+
+/// A CAV that crosses the reference path comes to who is on the other side of it, though its distance stays the same, and
+/// goes away from who is on this side. Strictly it is on both sides where it is within 10^-4 m.
+/// H-14.43, MARGIN-01.
+#[test]
+fn a_cav_that_crosses_the_reference_path_comes_nearer() {
+    for side in [1.0, -1.0] {
+        let with = |p: f64, aside: f64| {
+            where_the_cav_moves(side * p, side * aside, side * 4.5, side * -0.7)
+        };
+        assert_eq!([with(-0.7, 1.4), with(0.7, -1.4)], [NO, YES]);
+        moves_by_m("s D_k, s = -1", |e| with(-0.7, 0.125 + e));
+        // Strictly p is 0.9e-4 m to the right, too, and C_0 is as much less.
+        let near = [0.9e-4, 1.1e-4].map(|p| with(p, 0.125 - 1.5e-4));
+        assert_eq!(near, [NEAR_SAFE, YES]);
+    }
 }
 
 /// abs(h x h_k) <= 0.05 + progress / 30 m; a turned CAV is wider.
@@ -230,7 +293,7 @@ fn the_path_bends_and_does_not_turn_off() {
     moves_by_m("to the right", |e| with(-bound - e, 4.0));
     // (abs(cos) W + abs(sin) L) / 2, and half of its own width.
     let e_k = |sin: f64| (1.0 - sin * sin).sqrt() + 2.0 * sin;
-    moves_by_m("E_k", |e| with(0.08, e_k(0.08) + 1.0 - e));
+    moves_by_m("E_k", |e| with(0.08, e_k(0.08) + 1.0 + sagitta(8.0) - e));
 }
 
 /// Several nearest points or segments are all asked; strictly those that are up to 10^-5 m farther, too.
@@ -251,11 +314,36 @@ fn every_nearest_point_and_segment_is_asked() {
     assert_eq!([inside(10.0 - 1.1e-5), inside(10.0 + 2e-6)], [YES, NO]);
     // The last place is at a corner, where the next segment leads aside: half of W and L along it.
     let corner = |x: f64, y: f64| {
-        let mut cycle = beside(0.0, y, -8.0, 0.0);
+        let mut cycle = beside(0.0, y + sagitta(-8.0), -8.0, 0.0);
         on_route(&mut cycle, [x, 0.0], [x + 80.0, 30.0]);
         keeps_beside(&cycle)
     };
     // Laxly there is no place at s_stop.
     assert_eq!([corner(10.75, 2.6), corner(10.75, 2.7)], [NEAR_UNSAFE, YES]);
     assert_eq!([corner(10.750_009, 2.6), corner(10.750_011, 2.6)], [NEAR_SAFE, YES]);
+}
+
+/// Of p, too: a CAV of 20 m that looks along x covers 1 m to a side along a segment in x, and 1.4 m along one turned by a
+/// sine of 0.04. It is up to 10^-5 m before the corner between the two, and C is 1.4 m.
+/// H-14.43, H-14.44, MARGIN-18.
+#[test]
+fn every_segment_that_may_be_the_nearest_to_p_is_asked() {
+    let (along, turned) = ([1.0, 0.0], [(1.0 - 0.04f64 * 0.04).sqrt(), 0.04]);
+    let with = |before: f64, [x, y]: [f64; 2], [u, v]: [f64; 2]| {
+        let mut cycle = beside(-20.0, 4.0, 8.0, -0.39);
+        (cycle.ego.x, cycle.ego.y, cycle.ego.length) = (-before * x, -before * y, 20.0);
+        for point in points(&mut cycle) {
+            (point.x, point.y, point.cos, point.sin) = (point.x * u, point.x * v, u, v);
+        }
+        let at = |x: f64, y: f64| CrossSection { x, y, left: [x, y + 9.0], right: [x, y - 9.0] };
+        let corners = [at(-100.0 * x, -100.0 * y), at(0.0, 0.0), at(200.0 * u, 200.0 * v)];
+        cycle.route.cross_sections = corners.into();
+        keeps_beside(&cycle)
+    };
+    // C_0 is 1.4 m, strictly 1 m near the corner.
+    let from_turned = [0.9e-5, 1.1e-5].map(|before| with(before, turned, along));
+    assert_eq!(from_turned, [NEAR_SAFE, YES]);
+    // C_0 is 1 m, strictly too: 1.4 m would let the object keep its lane strictly alone.
+    let from_along = [0.9e-5, 1.1e-5].map(|before| with(before, along, turned));
+    assert_eq!(from_along, [NO, NO]);
 }

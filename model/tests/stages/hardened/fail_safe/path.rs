@@ -306,6 +306,23 @@ fn who_keeps_beside_takes_more_work() {
     assert_eq!(work, (320 + near + keeps_beside).to_string());
 }
 
+/// H-14.51: E are the places beyond s_stop - delta = 1023/1024 m. The node there is not among them.
+#[test]
+fn a_place_exactly_delta_before_s_stop_is_none_of_those_at_its_end() {
+    let work = |delta: f64| {
+        let mut cycle = cycle(4.0, &[along_x(1023.0 / 1024.0, 0.0)]);
+        cycle.tracks = tracks(vec![track(1, 3.0, 0.0)]);
+        (cycle.detections, cycle.parameters.work_limit) = (None, 0);
+        cycle.parameters.delta = delta;
+        let scene = scene(&cycle, Reading::Strict);
+        let found = failure(&scene, scene.trajectory.as_ref().expect("it is current"));
+        found.expect("there is work").compared[0].to_string().parse::<i64>().expect("whole")
+    };
+    let exactly = work(1.0 / 1024.0);
+    assert_eq!(work(1.0 / 2048.0), exactly);
+    assert_eq!(work((1.0_f64 / 1024.0).next_up()), exactly + 528);
+}
+
 /// H-14.11: the least progress of a place, of the one before it and of the one after it, at least 0.
 #[test]
 fn a_window_begins_with_the_least_progress_around_its_place() {

@@ -11,6 +11,7 @@ use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
+use super::widening::{found, witness};
 use crate::base::*;
 use crate::near::*;
 
@@ -91,7 +92,7 @@ fn a_turn_at_a_junction_is_within_reach() {
 fn at_one_place_too_far_aside_comes_before_too_long() {
     // There and back 2.375 m; at 0.5 m aside it is 2.875 m long, at 0.75 m 3.125 m: s_stop is 1 m. Its excess there is
     // 0.75 m - 9/384 m.
-    let to_and_fro = [0.0, 0.5, -0.5, 0.375].map(|x| [x, 0.0, 1.0, 0.0]);
+    let to_and_fro = [0.0, 0.5, 0.0, 0.5, 0.0, 0.375].map(|x| [x, 0.0, 1.0, 0.0]);
     let poses = [to_and_fro.as_slice(), &[[0.375, 1.0, 1.0, 0.0]]].concat();
     let first = |lateral_tolerance: f64| {
         let mut cycle = leads(4.0, &poses);
@@ -99,8 +100,8 @@ fn at_one_place_too_far_aside_comes_before_too_long() {
         let Outcome::Failed(it) = outcome(&cycle, Stage::Ii) else { panic!("aside") };
         (it.rule, it.point, it.compared[0].to_string())
     };
-    assert_eq!(first(93.0 / 128.0), (Rule::Reach, Some(5 + 13), "3.125".into()));
-    assert_eq!(first(0.726_562_4), (Rule::Reach, Some(5 + 13), "0.7265625".into()));
+    assert_eq!(first(93.0 / 128.0), (Rule::Reach, Some(7 + 13), "3.125".into()));
+    assert_eq!(first(0.726_562_4), (Rule::Reach, Some(7 + 13), "0.7265625".into()));
 }
 
 /// H-14.62: an arc of 8 m passes, the same headings on a straight line do not.
@@ -148,31 +149,158 @@ fn a_place_does_not_look_back() {
         let poses = [[0.0, 0.0, 1.0, 0.0], [x, y, cos, sin], [x + 0.25, y, 1.0, 0.0]];
         diagonal(leads(8.0, &poses))
     };
-    let found = |cycle: &Cycle| match outcome(cycle, Stage::Ii) {
-        Outcome::Failed(it) => {
-            Some((it.rule, it.point, it.compared.each_ref().map(ToString::to_string)))
-        }
-        _ => None,
-    };
-    let witness = |point, compared: [&str; 2]| {
-        Some((Rule::Reach, Some(point), compared.map(ToString::to_string)))
-    };
-    assert_eq!(found(&turned(1.0, 0.0, -0.5, 0.75f64.sqrt())), witness(3 + 4, ["-0.5", "0"]));
+    let back = found(&turned(1.0, 0.0, -0.5, 0.75f64.sqrt()), Reading::Exact);
+    assert_eq!(back, Some(witness(Rule::Reach, 3 + 4, ["-0.5", "0"])));
     let across = [-3e-6, -0.5e-6, 0.0, 0.5e-6, 3e-6];
     let all = across.map(|e: f64| safe(&turned(3.0, 1.25, -e, (1.0 - e * e).sqrt())));
     assert_eq!(all, [YES, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
     let weave = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.5, -0.5]].map(|[x, y]| [x, y, 1.0, 0.0]);
     let long = slow(&[&weave[..], &[[0.5, 0.25, -0.6, 0.8]]].concat());
-    assert_eq!(found(&diagonal(long)), witness(5 + 2 + 9, ["2.75", "2.625"]));
+    let expected = Some(witness(Rule::Reach, 5 + 2 + 9, ["2.75", "2.625"]));
+    assert_eq!(found(&diagonal(long), Reading::Exact), expected);
+}
+
+/// A trajectory through these points on the line along h, which look along it; h is along x or y.
+fn on_the_line(v: f64, [cos, sin]: [f64; 2], ways: &[f64]) -> Cycle {
+    let poses: Vec<[f64; 4]> = ways.iter().map(|way| [way * cos, way * sin, cos, sin]).collect();
+    let mut cycle = diagonal(leads(v, &poses));
+    (cycle.ego.cos, cycle.ego.sin) = (cos, sin);
+    cycle.parameters.start_tolerance = 4.0;
+    cycle
+}
+
+const ALONG_X: [f64; 2] = [1.0, 0.0];
+
+/// What leads back by 1/8 m + e: at 1/8 m and exactly delta from it, and just beyond.
+fn leads_back_by_an_eighth(with: impl Fn(f64) -> Cycle) {
+    let (delta, more) = (1.0 / 1_048_576.0, 1.0 / 1_099_511_627_776.0);
+    let all = [-delta, more - delta, 0.0, more, delta, more + delta].map(|e| {
+        let mut cycle = with(e);
+        cycle.parameters.delta = delta;
+        safe(&cycle)
+    });
+    assert_eq!(all, [YES, NEAR_SAFE, NEAR_SAFE, NEAR_UNSAFE, NEAR_UNSAFE, NO]);
+    assert_eq!(found(&with(more), Reading::Exact).map(|it| it.0), Some(Rule::Reach));
+}
+
+/// A path that leads to a node ahead and back behind p: the nodes themselves may go back farther. The witness is the
+/// first place beyond, a node or one between two. H-14 alone asks it.
+/// H-14.67, H-14.9, MARGIN-01.
+#[test]
+fn a_place_is_at_most_an_eighth_of_a_metre_behind() {
+    for h in [ALONG_X, [0.0, 1.0]] {
+        leads_back_by_an_eighth(|e| on_the_line(4.0, h, &[0.0, 0.5, -0.125 - e, 1.5]));
+    }
+    let aside = |e: f64| [[0.0, 0.0], [0.5, 0.0], [-0.125 - e, 1.0], [4.5, 0.0]];
+    leads_back_by_an_eighth(|e| leads(8.0, &aside(e).map(|[x, y]| [x, y, 1.0, 0.0])));
+    for behind in [-0.25, -0.5] {
+        let mut back = on_the_line(4.0, ALONG_X, &[0.0, 0.5, behind, 1.5]);
+        let expected = Some(witness(Rule::Reach, 4 + 5, ["0.25", "0.125"]));
+        assert_eq!(found(&back, Reading::Exact), expected, "{behind}");
+        back.profile = back.profile.without(HardenedRule::H14);
+        assert_eq!(safe(&back), YES, "{behind}");
+    }
+}
+
+/// A list of places that would end behind p by its distance: s_stop is 4 m, 5 m the farthest, and 9 m the greatest
+/// length. Before it was asked, nothing farther ahead than 1 m was examined.
+/// H-14.67, H-14.60.
+#[test]
+fn a_path_does_not_end_behind_the_cav() {
+    let mut back = on_the_line(8.0, ALONG_X, &[0.0, 1.0, 0.0, -1.0, -2.0, -3.0, -4.0, -5.0, -6.0]);
+    back.parameters.lateral_tolerance = 1.0;
+    let scene = Scene::new(&back, Reading::Exact);
+    let trajectory = scene.trajectory.as_ref().expect("it is current");
+    let last = places(&scene, trajectory).last().expect("p at least");
+    assert_eq!([last.progress, last.length], [-5.25, 7.25].map(Real::from_double));
+    // 0, four to 1 m, four back to p, and 1/4 m.
+    let expected = Some(witness(Rule::Reach, 9 + 9, ["0.25", "0.125"]));
+    for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
+        assert_eq!(found(&back, reading), expected);
+    }
+}
+
+/// Each point that is no node is compared with the farthest of all before it, wherever p is; a trajectory that begins
+/// behind p and comes ahead passes.
+/// H-14.67, MARGIN-01.
+#[test]
+fn a_point_that_is_no_node_goes_back_by_at_most_an_eighth_of_a_metre() {
+    let along = |ways: &[f64]| on_the_line(4.0, ALONG_X, ways);
+    for comes in [&[-3.0, -2.0, -1.0, 0.0, 1.0, 2.0][..], &[-3.0], &[-3.0, 2.0], &[0.0, 0.0]] {
+        assert_eq!(safe(&along(comes)), YES, "{comes:?}");
+    }
+    leads_back_by_an_eighth(|e| on_the_line(4.0, [0.0, 1.0], &[0.0, -0.125 - e, 1.5]));
+    // Without a node, by and by, behind the one before and behind an earlier one.
+    leads_back_by_an_eighth(|e| along(&[0.0, -0.125 - e]));
+    leads_back_by_an_eighth(|e| along(&[0.0625, 0.0, -0.0625 - e, 1.5]));
+    leads_back_by_an_eighth(|e| along(&[-3.0, -2.0, -2.0625, -2.125 - e, 0.0, 1.5]));
+    leads_back_by_an_eighth(|e| along(&[-1.0, -1.0625, -1.03125, -1.125 - e, 0.0, 1.5]));
+    let back = along(&[0.0625, 0.0, -0.125, -1.0, 1.5]);
+    let expected = Some(witness(Rule::Reach, 2, ["0.1875", "0.125"]));
+    assert_eq!(found(&back, Reading::Exact), expected, "the first of them");
+    let path = along(&[0.0, -0.25, 0.5, -0.5, 1.5]);
+    let expected = Some(witness(Rule::Reach, 1, ["0.25", "0.125"]));
+    assert_eq!(found(&path, Reading::Exact), expected, "points come before places");
+}
+
+/// H-14.67, H-14.15, H-14.62: at one point the excess comes first, and at one place its heading; but an earlier point
+/// comes before a later one. The excess 3/4 m behind and 1 m aside is 1 m - 9/96 m.
+#[test]
+fn what_goes_back_comes_last_at_a_point_and_at_a_place() {
+    let point = |lateral_tolerance: f64, points: &[[f64; 2]]| {
+        let poses: Vec<[f64; 4]> = points.iter().map(|[x, y]| [*x, *y, 1.0, 0.0]).collect();
+        let mut cycle = leads(4.0, &poses);
+        cycle.parameters.lateral_tolerance = lateral_tolerance;
+        found(&cycle, Reading::Exact)
+    };
+    let [p, behind, beside, ahead] = [[0.0, 0.0], [-0.75, 0.0], [-0.75, 1.0], [1.5, 0.0]];
+    let back = Some(witness(Rule::Reach, 1, ["0.75", "0.125"]));
+    let aside = Some(witness(Rule::Reach, 1, ["0.90625", "0.5"]));
+    assert_eq!(point(0.5, &[p, beside, p, ahead]), aside);
+    assert_eq!(point(1.0, &[p, beside, p, ahead]), back);
+    assert_eq!(point(0.5, &[p, behind, beside, p, ahead]), back);
+    let place = |[cos, sin]: [f64; 2]| {
+        let ends = [0.0, 0.5].map(|x| [x, 0.0, 1.0, 0.0]);
+        let poses = [&ends[..], &[[-0.25, 0.0, cos, sin], [1.5, 0.0, 1.0, 0.0]]].concat();
+        found(&diagonal(leads(4.0, &poses)), Reading::Exact)
+    };
+    assert_eq!(place([-0.5, 0.75f64.sqrt()]), Some(witness(Rule::Reach, 4 + 5, ["-0.5", "0"])));
+    assert_eq!(place(ALONG_X), Some(witness(Rule::Reach, 4 + 5, ["0.25", "0.125"])));
+}
+
+/// H-14.67, H-14.7: a U-turn 6 m ahead, and back to 6 m behind p. An s_stop of 4 m passes; one of 36 m comes to it.
+#[test]
+fn beyond_the_end_of_the_list_a_path_leads_anywhere() {
+    let turn = |radius: f64| {
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0].map(|i| {
+            let (sin, cos) = (i * std::f64::consts::PI / 8.0).sin_cos();
+            [6.0 + radius * sin, 4.0 - radius * cos, cos, sin]
+        })
+    };
+    let out = [0.0, 2.0, 4.0].map(|x| [x, 0.0, 1.0, 0.0]);
+    let back = [4.0, 2.0, 0.0, -2.0, -4.0, -6.0].map(|x| [x, 8.0, -1.0, 0.0]);
+    let poses = [&out[..], &turn(4.0), &back].concat();
+    let cross_section = |[[x, y], left, right]: [[f64; 2]; 3]| CrossSection { x, y, left, right };
+    let [inner, middle, outer] =
+        [1.0, 4.0, 7.0].map(|radius| turn(radius).map(|[x, y, ..]| [x, y]));
+    let of_turn = (0..9).map(|i| [middle[i], inner[i], outer[i]]);
+    let far = |y: f64, side: f64| [[-100.0, y], [-100.0, y + side], [-100.0, y - side]];
+    let sections = [far(0.0, 3.0)].into_iter().chain(of_turn).chain([far(8.0, -3.0)]);
+    let mut cycle = leads(8.0, &poses);
+    cycle.route.cross_sections = sections.map(cross_section).collect();
+    assert_eq!(safe(&cycle), YES);
+    cycle.ego.speed = 24.0;
+    assert_eq!(found(&cycle, Reading::Exact).map(|it| it.0), Some(Rule::Reach));
 }
 
 /// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
 /// those before it, after `reach`.
 #[test]
 fn a_point_at_an_eighth_of_a_metre_is_ambiguous() {
+    const DELTA: f64 = 1.0 / 1_048_576.0;
     let with = |xs: [f64; 3]| {
         let mut cycle = base(HARDENED, PlanRemote);
-        cycle.ego.speed = 0.5;
+        (cycle.ego.speed, cycle.parameters.delta) = (0.5, DELTA);
         points(&mut cycle).truncate(3);
         for (point, x) in points(&mut cycle).iter_mut().zip(xs) {
             point.x = x;
@@ -192,6 +320,10 @@ fn a_point_at_an_eighth_of_a_metre_is_ambiguous() {
     assert_eq!(with([0.125 + 0.9e-6, 1.0, 2.0]), ambiguous(0));
     assert_eq!(with([0.125 - 1.1e-6, 1.0, 2.0]), None);
     assert_eq!(with([0.125 + 1.1e-6, 1.0, 2.0]), None);
+    let [below, above] = [0.125 - DELTA, 0.125 + DELTA];
+    assert_eq!([below, above].map(|x| with([x, 1.0, 2.0])), [ambiguous(0); 2], "exactly delta");
+    let beyond = [below.next_down(), above.next_up()];
+    assert_eq!(beyond.map(|x| with([x, 1.0, 2.0])), [None; 2]);
     assert_eq!(with([0.0, 0.125, 2.0]), ambiguous(1), "the point before the first");
     assert_eq!(with([0.25, 0.25, 0.25]), None);
     assert_eq!(with([0.131, 0.125, 2.0]), None, "behind the first it is a node anyway");

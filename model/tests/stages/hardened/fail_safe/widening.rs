@@ -7,7 +7,7 @@ use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
-use super::following::{READINGS, beside, keeps_beside, moves_by_m};
+use super::following::{READINGS, beside, keeps_beside, moves_by_m, sagitta};
 use super::scene;
 use crate::base::*;
 use crate::near::{NEAR_SAFE, YES, points, safe};
@@ -181,7 +181,7 @@ fn the_trajectory_passes_within_lateral_tolerance() {
 #[test]
 fn who_keeps_beside_leaves_room_for_the_widening() {
     moves_by_m("widening", |e| {
-        let mut cycle = beside(-10.0, 2.5 - e, 8.0, 0.0);
+        let mut cycle = beside(-10.0, 2.5 + sagitta(8.0) - e, 8.0, 0.0);
         cycle.ego.y = 0.25;
         keeps_beside(&cycle)
     });
