@@ -12,7 +12,7 @@ from functools import cached_property
 
 from beside import Beside
 from detection_history import S
-from geometry import EPS, edges, from_centre, reach
+from geometry import EPS, edges, from_centre, reach, segment_distance
 from stopping import Stop, a_tyre, cross, displacement, dot
 
 
@@ -114,6 +114,11 @@ def path(cycle, s_stop):
             places.append(Place(x, y, progress, length, end if k == n else heading))
             if length > greatest_length(s_stop) or x**2 + y**2 > farthest**2:
                 return places
+
+
+def from_origin(way):
+    """The least distance of a way from p, where places are from p on."""
+    return segment_distance(*[{"x": float(x), "y": float(y)} for x, y in [(0, 0), *way]])
 
 
 def sweeps(sides, dx, dy, ux, uy, r1, r2):
@@ -233,17 +238,37 @@ class FailSafe:
         return max(found, default=0.0)
 
     def goes_back(self):
-        """Whether a place is behind the CAV, or a point that is no node behind one before it."""
-        points, _ = parted(self.cycle)
-        passed = [at(self.ego, point)[0] for point in points]
+        """Whether a point that is no node is behind one before it."""
+        passed = [at(self.ego, point)[0] for point in parted(self.cycle)[0]]
         back = [before - x for before, x in zip(itertools.accumulate(passed, max), passed)]
-        back += [-place.progress for place in self.places[1:]]
         return max(back, default=0) > 0.125 - EPS
+
+    def comes_back(self):
+        """Whether the path leads back to where the CAV may be: behind an earlier node, or after it was far away."""
+        near = self.stop.s_stop
+        far = near + max(1, Fraction(self.cycle["parameters"]["lateral_tolerance"]))
+        nodes = [displacement(self.ego, node) for node in [self.ego, *parted(self.cycle)[1]]]
+        greatest, was_far = 0, False
+        for a, b in zip(nodes, nodes[1:]):
+            greatest = max(greatest, ahead(*a, self.ego))
+            was_far = was_far or math.hypot(*a) > far - EPS
+            way, part = [a, b], self.behind(a, b, greatest - Fraction(1, 8) + Fraction(EPS))
+            if was_far and from_origin(way) < near + EPS or part and from_origin(part) < far + EPS:
+                return True
+        return False
+
+    def behind(self, a, b, limit):
+        """The part of the way from a to b whose progress is below the limit."""
+        f, g = ahead(*a, self.ego), ahead(*b, self.ego)
+        if (f < limit) == (g < limit):
+            return [a, b] if f < limit else None
+        edge = [x + (limit - f) / (g - f) * (to - x) for x, to in zip(a, b)]
+        return [a, edge] if f < limit else [edge, b]
 
     def within_reach(self):
         """The CAV can drive the path, and what comes before it, up to lateral_tolerance; the path goes on,
         neither aside nor back for long; and the headings of the places go with it."""
-        if self.goes_back():
+        if self.goes_back() or self.comes_back():
             return False
         if self.excess > self.cycle["parameters"]["lateral_tolerance"] - EPS:
             return False

@@ -100,7 +100,7 @@ macro_rules! witness_rules {
             StepTurn = "step_turn";
             /// H-11: the point is not where the headings lead.
             Slide = "slide";
-            /// Stage ii, H-14: a place, or a point that is no node, is not within reach.
+            /// Stage ii, H-14: a place, or a point that is no node, is not within reach, or the path comes back.
             Reach = "reach";
             /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react + s_since.
             Gap = "gap";

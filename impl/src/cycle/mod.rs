@@ -16,6 +16,7 @@ use crate::hardened::h07_start::{corridor_failure, direction_failure, start_fail
 use crate::hardened::h11_steps::step_failure;
 use crate::hardened::h14_fail_safe::FailSafe;
 use crate::hardened::h14_fail_safe::reach::reach_failure;
+use crate::hardened::h14_fail_safe::returns::return_failure;
 use crate::hardened::h14_fail_safe::road::road_failure;
 use crate::hardened::h14_fail_safe::widening::wider_by;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
@@ -234,6 +235,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             .or_else(|| if h07 { direction_failure(route, points) } else { None })
             .or_else(|| if h11 { step_failure(cycle, points) } else { None })
             .or_else(|| if h14 { reach_failure(cycle, points, aside) } else { None })
+            .or_else(|| if h14 { return_failure(cycle, points) } else { None })
             .or_else(|| if h14 { road_failure(cycle, route, points) } else { None }))
     }
 

@@ -9,8 +9,9 @@ use mufasa::input::scratch::Scratch;
 use mufasa::report as twin;
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
-    Cycle, DetectionList, Lead, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
+    Cycle, DetectionList, Ego, Lead, Profile, Track, TrackList, Trajectory, TrajectoryPoint,
 };
+use mufasa_model::input::profile::HardenedRule as ModelRule;
 use mufasa_model::report::{Reading, Rule};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::with_impl;
@@ -68,7 +69,7 @@ pub fn too_much(cycle: &Cycle) -> Option<i64> {
     witness.compared[0].to_string().parse().ok()
 }
 
-/// H-14.67, MARGIN-01: the path leads back to about 1/8 m behind p, or a point that is no node behind one before it.
+/// H-14.67, H-14.68, MARGIN-01: a node, or a point that is none, is about 1/8 m behind one before it.
 #[test]
 fn going_back() {
     let (title, profile) = ("H-14, going back", Profile::HARDENED);
@@ -77,23 +78,66 @@ fn going_back() {
 }
 
 fn leads_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let far = if draw.one_in(2) { draw.range(0.2, 2.0) } else { draw.range(0.0, 0.12) };
+    let behind = draw.near(far - 0.125);
+    let ahead = [(0, 0.0), (200_000_000, far), (25_000_000_000, behind), (26_000_000_000, behind)];
+    leads(draw, profile, 3.0, &ahead.map(|(after_ns, f)| (after_ns, [f, 0.0])))
+}
+
+/// H-14.68, MARGIN-01: the path goes aside, to about the bound of distance and back to about s_stop; or it goes farther
+/// ahead, and comes back at about the bound.
+#[test]
+fn coming_back() {
+    let (title, profile) = ("H-14, coming back", Profile::HARDENED.without(ModelRule::H11));
+    let tally = hold(cases() / 4, title, profile, comes_back, near_threshold, conforming);
+    tally.assert_aimed(&["ii", "safe"]);
+}
+
+fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let far = if draw.one_in(2) { draw.near(0.0) } else { draw.range(-0.2, 2.0) };
+    let near = if draw.one_in(2) { draw.near(0.0) } else { draw.range(-0.5, 0.2) };
+    let is_aside = draw.one_in(2);
+    let mut cycle = leads(draw, profile, 30.0, &[]);
+    cycle.ego.speed = 8.0;
+    let parameters = &mut cycle.parameters;
+    (parameters.a_b, parameters.a_max, parameters.tau) = (8.0, 2.0, 0.25);
+    parameters.lateral_tolerance = 0.5;
+    let (s_stop, bound) = (6.578_125, 7.578_125);
+    let at = |f: f64, distance: f64| [f, (distance * distance - f * f).sqrt()];
+    let way = if is_aside {
+        vec![[0.0, 0.0], [2.6, 0.6], at(6.0, s_stop), at(6.0, bound + far), at(6.0, s_stop + near)]
+    } else {
+        vec![[0.0, 0.0], [9.6, 0.0], [9.6, bound + far], at(3.0, bound + near)]
+    };
+    let way: Vec<(i64, [f64; 2])> = (0..).map(|k| 200_000_000 * k).zip(way).collect();
+    cycle.trajectory = Some(plan(&cycle, &way));
+    cycle
+}
+
+/// A plan through points ahead and to the left, each at its time after now, on a road of that half width.
+fn leads(
+    draw: &mut Draw<'_>,
+    profile: Profile,
+    half_width: f64,
+    points: &[(i64, [f64; 2])],
+) -> Cycle {
     let frame = base::frame(draw);
     let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);
-    let (far, behind) = if draw.one_in(2) {
-        (draw.range(0.2, 2.0), draw.near(-0.125))
-    } else {
-        let far = draw.range(0.0, 0.12);
-        (far, draw.near(far - 0.125))
-    };
     cycle.parameters.step_max_ns = 60_000_000_000;
-    let ahead = [(0, 0.0), (200_000_000, far), (25_000_000_000, behind), (26_000_000_000, behind)];
-    let point = |(after_ns, f): (i64, f64)| {
-        let (x, y) = frame.at(f, 0.0);
-        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos: frame.cos, sin: frame.sin }
-    };
-    cycle.trajectory =
-        Some(Trajectory { stamp_ns: cycle.now_ns, points: ahead.map(point).to_vec() });
+    cycle.route = base::road_to(frame, half_width, 120.0);
+    cycle.trajectory = Some(plan(&cycle, points));
     cycle
+}
+
+/// All with the CAV's heading.
+fn plan(cycle: &Cycle, points: &[(i64, [f64; 2])]) -> Trajectory {
+    let Ego { x, y, cos, sin, .. } = cycle.ego;
+    let frame = Frame { x, y, cos, sin };
+    let point = |&(after_ns, [f, left]): &(i64, [f64; 2])| {
+        let (x, y) = frame.at(f, left);
+        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos, sin }
+    };
+    Trajectory { stamp_ns: cycle.now_ns, points: points.iter().map(point).collect() }
 }
 
 /// H-14.42: a path that may have thousands of places.

@@ -10,6 +10,7 @@ mod motions;
 pub(crate) mod nodes;
 pub(crate) mod path;
 pub(crate) mod reach;
+pub(crate) mod returns;
 pub(crate) mod road;
 mod spot;
 pub(crate) mod times;

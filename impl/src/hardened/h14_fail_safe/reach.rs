@@ -16,7 +16,7 @@ use crate::stages::llcc::vector;
 const ASIDE: f64 = 0.5;
 /// For each m ahead: what it may start turned.
 const TURNED: f64 = 0.17;
-/// How far behind p a place may be, or a point that is no node behind an earlier one, m.
+/// How far behind an earlier point one may be that is no node, m.
 const BACK: f64 = 0.125;
 
 /// The first point that is no node, or place, that is not certainly within reach. Most paths are told line by line:
@@ -68,8 +68,7 @@ pub(crate) fn reach_failure(
             }
             let found = failure(excess.of_place(&place.pose))
                 .or_else(|| length_failure(piece.length_at(place), &path.times))
-                .or_else(|| heading_failure(cycle, place))
-                .or_else(|| back_failure(-place.progress));
+                .or_else(|| heading_failure(cycle, place));
             found.map(|witness| witness.at_point(place.point(points.len())))
         })
     })
@@ -98,7 +97,7 @@ fn heading_failure(cycle: &Cycle<'_>, place: &Place) -> Option<Witness> {
     (!arc[0].certainly_at_most(arc[1])).then(witness)
 }
 
-/// So far behind p, or a point before, m.
+/// So far behind an earlier point, m.
 fn back_failure(back: Real) -> Option<Witness> {
     // H-14.67
     let most = Real::new(BACK);
@@ -124,16 +123,14 @@ impl Plain {
         length < self.longest * (1.0 - 1e-9) - 1e-6
     }
 
-    /// Whether all that is between two places certainly is not behind p, and the heading near to that of an arc there: f is
-    /// greatest and least at one of them, the way aside least at one or 0.
+    /// Whether the heading certainly is near to that of an arc, at all that is between two places: f is greatest at one of
+    /// them, the way aside least at one or 0.
     fn is_along(&self, ends: [[f64; 2]; 2], heading: [f64; 2]) -> bool {
         let [along, turned] = split(self.h, heading);
         let [[f, aside], [f_to, aside_to]] = ends.map(|place| split(self.h, place));
         let apart = aside * aside_to > 0.0;
         let aside = if apart { smaller(aside.abs(), aside_to.abs()) } else { 0.0 };
-        let (behind, f) = (-smaller(f, f_to), larger(larger(f, f_to), 0.0));
-        behind < BACK - 1e-6
-            && along > 1e-6
-            && f * (turned.abs() - TURNED) + 1e-6 + 1e-9 * f < 2.0 * aside + ASIDE
+        let f = larger(larger(f, f_to), 0.0);
+        along > 1e-6 && f * (turned.abs() - TURNED) + 1e-6 + 1e-9 * f < 2.0 * aside + ASIDE
     }
 }

@@ -7,6 +7,7 @@ pub mod meeting;
 pub mod motions;
 pub mod path;
 pub mod reach;
+pub mod returns;
 pub mod road;
 pub mod times;
 pub mod widening;

@@ -46,8 +46,13 @@ pub fn greatest_length(scene: &Scene) -> Real {
     integer(2) * Driving::of(scene).s_stop() + integer(1)
 }
 
+/// The distance from p above which a place is the last: s_stop + max(1 m, lateral_tolerance).
+pub fn farthest(scene: &Scene) -> Real {
+    Driving::of(scene).s_stop() + integer(1).max(scene.parameters.lateral_tolerance.clone())
+}
+
 /// p with the heading of the CAV, and the points from the first one on that is ahead.
-fn nodes(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
+pub fn nodes(scene: &Scene, trajectory: &[Point]) -> Vec<Frame> {
     let ego = &scene.ego;
     let p = Frame { origin: ego.position.clone(), direction: ego.heading.clone() };
     let first = first_ahead(scene, trajectory).unwrap_or(trajectory.len());
@@ -177,8 +182,7 @@ struct End<'a> {
 impl<'a> End<'a> {
     /// 2 s_stop + 1 m, and s_stop + max(1 m, lateral_tolerance), both moved.
     fn new(scene: &'a Scene, by_distance: bool, moved: impl Fn(&Real) -> Real) -> Self {
-        let beside = integer(1).max(scene.parameters.lateral_tolerance.clone());
-        let farthest = by_distance.then(|| moved(&(Driving::of(scene).s_stop() + beside)));
+        let farthest = by_distance.then(|| moved(&farthest(scene)));
         Self { p: &scene.ego.position, greatest: moved(&greatest_length(scene)), farthest }
     }
 

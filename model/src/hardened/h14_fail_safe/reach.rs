@@ -1,6 +1,6 @@
 //! Reach: the excess of no point that is no node and of no place is above lateral_tolerance, the path is not too long,
-//! no place is turned farther than an arc to it, and neither places nor points that are no nodes lead back by more than
-//! 1/8 m (`spec/hardened/H-14.md#requirements-reach`).
+//! no place is turned farther than an arc to it, no point that is no node leads back by more than 1/8 m, and the path does
+//! not come back (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::excess::{
     aside, is_aside, is_aside_or_turned, no_nodes, of_place, of_point,
@@ -9,6 +9,7 @@ use crate::hardened::h14_fail_safe::meeting::big_m;
 use crate::hardened::h14_fail_safe::path::{
     Place, ahead, first_ahead, greatest_length, least_ahead, places,
 };
+use crate::hardened::h14_fail_safe::returns;
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
@@ -16,8 +17,8 @@ use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 
 /// The excess of a point that is no node, or of a place other than p, is above lateral_tolerance, or the length at a
-/// place is above 2 s_stop + 1 m, or a place is turned farther than an arc to it, or a place is more than 1/8 m behind
-/// p, or a point that is no node that far behind a point before it.
+/// place is above 2 s_stop + 1 m, or a place is turned farther than an arc to it, or a point that is no node is more than
+/// 1/8 m less ahead than a point before it; or, after all of these, the path comes back.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let of_points = no_nodes(scene, trajectory)
         .zip(ways_back(scene, trajectory))
@@ -31,10 +32,10 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
         excess_failure(scene, is_asked, || of_place(scene, &place.pose))
             .or_else(|| length_failure(scene, &place))
             .or_else(|| heading_failure(scene, &place))
-            .or_else(|| back_failure(scene, &-&place.progress))
     });
     let mut all = of_points.chain((trajectory.len()..).zip(of_places).skip(1));
     all.find_map(|(i, failure)| Some(failure?.at_point(i)))
+        .or_else(|| returns::failure(scene, trajectory))
 }
 
 /// excess <= lateral_tolerance. Where it may not be above 0 it is not worked out, if 0 passes.
@@ -73,7 +74,7 @@ fn heading_failure(scene: &Scene, place: &Place) -> Option<Witness> {
     Witness::unless(reads.at_most(&turned, &limit), Rule::Reach, &turned, &limit)
 }
 
-/// back <= 1/8 m: how far a place is behind p, or a point that is no node behind a point before it.
+/// back <= 1/8 m: how much less ahead a point that is no node is than a point before it.
 fn back_failure(scene: &Scene, back: &Real) -> Option<Witness> {
     let eighth = least_ahead();
     Witness::unless(scene.reads.at_most(back, &eighth), Rule::Reach, back, &eighth)

@@ -7,6 +7,7 @@ mod meeting;
 mod motions;
 mod path;
 mod reach;
+mod returns;
 mod road;
 mod route_bends;
 mod times;

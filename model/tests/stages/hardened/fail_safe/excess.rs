@@ -107,9 +107,9 @@ const PLACES: &[Near] = &[
         path(c, 0.0, &[[1.0, 0.25 + 1.0 / 6.0 + e]]);
         c.parameters.tau = 1.0;
     }),
-    ("a place behind", PlanRemote, NO_STEPS, |c, e| {
-        let behind = [-0.0625, 0.25 + 1.0 / 1536.0 + e];
-        path(c, 5.0, &[[0.0, 0.0], [0.5, 0.0], behind, [0.5, 0.0], [1.5, 0.0]]);
+    ("a place farther back", PlanRemote, NO_STEPS, |c, e| {
+        let back = [0.0625, 0.25 + 1.0 / 1536.0 + e];
+        path(c, 5.0, &[[0.0, 0.0], [0.15625, 0.0], back, [0.5, 0.0], [1.5, 0.0]]);
         c.parameters.tau = 0.1;
     }),
     ("swing", PlanRemote, NO_STEPS, |c, e| turned(c, 0.0, 1.0, 0.25 + e)),
@@ -147,6 +147,25 @@ fn the_excess_of_a_place_is_at_most_lateral_tolerance() {
 #[test]
 fn the_excess_of_a_point_that_is_no_node_is_at_most_lateral_tolerance() {
     margins_move_rules(POINTS, &[Rule::Reach; 5]);
+}
+
+/// A place 1/16 m behind p has the excess of one ahead. Its path comes back in any case, which is asked after it.
+/// H-14.15, H-14.64, H-14.68, MARGIN-01.
+#[test]
+fn a_place_behind_has_an_excess() {
+    let [third, behind] = [3, 4 + 6].map(|point| Some(Some(point)));
+    let at = |e: f64| {
+        let mut cycle = base(NO_STEPS, PlanRemote);
+        let back = [-0.0625, 0.25 + 1.0 / 1536.0 + e];
+        path(&mut cycle, 5.0, &[[0.0, 0.0], [0.5, 0.0], [0.5, 0.0], back]);
+        cycle.parameters.tau = 0.1;
+        [Reading::Strict, Reading::Exact, Reading::Lax]
+            .map(|reading| found(&cycle, reading).map(|it| it.1))
+    };
+    assert_eq!(at(-3e-6), [third; 3]);
+    assert_eq!(at(-0.5e-6), [behind, third, third]);
+    assert_eq!(at(0.5e-6), [behind, behind, third]);
+    assert_eq!(at(3e-6), [behind; 3]);
 }
 
 /// The witness is at the first point that is no node, or else at the first place, and compares the excess with

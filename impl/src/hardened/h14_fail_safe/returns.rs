@@ -1,0 +1,109 @@
+//! Whether the path comes back to where the CAV may be (H-14.68, `spec/hardened/H-14.md#requirements-reach`).
+
+use crate::hardened::h14_fail_safe::nodes::Nodes;
+use crate::hardened::h14_fail_safe::times::Times;
+use crate::input::cycle::{Cycle, TrajectoryPoint};
+use crate::numbers::plane::Vector;
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rounding::Real;
+use crate::report::{Rule, Witness};
+use crate::stages::llcc::sweep::{minus, split};
+use crate::stages::llcc::vector;
+
+/// How far behind an earlier node the path may be, m.
+const BACK: f64 = 0.125;
+/// What gains less progress than that is all equally far ahead, m: less than any delta.
+const LEVEL: f64 = 1e-9;
+/// More than what plain doubles err by from p on, m, up to 2^26 m and up to the greatest `s_stop`.
+const ROUGH: f64 = 1e-6;
+
+/// The first way from a node to the next that is not certainly kept. Of most paths plain doubles tell that none comes back.
+pub(crate) fn return_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let nodes = Nodes::new(cycle, points);
+    let beside = larger(1.0, cycle.parameters.lateral_tolerance);
+    if !may_return(cycle, nodes.points, beside) {
+        return None;
+    }
+    let (p, h) = ([cycle.ego.x, cycle.ego.y], vector([cycle.ego.cos, cycle.ego.sin]));
+    let near = Times::<Real>::new(cycle).s_stop;
+    let far = near + Real::new(beside);
+    let first = nodes.others(points).len();
+    let (mut from, mut was_far) = (Vector::new(0.0, 0.0), false);
+    let (mut progress, mut greatest) = (Real::ZERO, Real::ZERO);
+    nodes.points.iter().zip(first..).find_map(|(node, index)| {
+        let to = Vector::between(p, [node.x, node.y]);
+        let ends = [from, to];
+        let [begins, comes_to] = [progress, to.dot(h)];
+        let earlier = greatest;
+        was_far |= !from.dot(from).certainly_at_most(far.squared());
+        (from, progress, greatest) = (to, comes_to, greatest.max(comes_to));
+        let compared =
+            |pair: [Real; 2]| Witness::of(Rule::Reach, pair.map(Real::value)).at_point(index);
+        // H-14.68
+        let (back, most) = (earlier - begins.min(comes_to), Real::new(BACK));
+        if !back.certainly_at_most(most) {
+            let part = below(ends, [begins, comes_to], earlier - most);
+            if !far.certainly_at_most(least_distance(part)) {
+                return Some(compared([back, most]));
+            }
+        }
+        let away = if was_far { least_distance(ends) } else { near };
+        (!near.certainly_at_most(away)).then(|| compared([away, near]))
+    })
+}
+
+/// The part of a way that has less progress than the limit; one of its ends has.
+fn below([a, b]: [Vector; 2], [begins, comes_to]: [Real; 2], limit: Real) -> [Vector; 2] {
+    let gain = comes_to - begins;
+    if gain.abs().certainly_at_most(Real::new(LEVEL)) {
+        return [a, b];
+    }
+    let share = (limit - begins).over(gain).max(Real::ZERO).min(Real::ONE);
+    let at = a + (b - a).times(share);
+    if gain.value() > 0.0 { [a, at] } else { [at, b] }
+}
+
+/// From p to the nearest point of the way from a to b.
+fn least_distance([a, b]: [Vector; 2]) -> Real {
+    let u = b - a;
+    if Real::ZERO.certainly_at_most(a.dot(u)) {
+        a.norm()
+    } else if b.dot(u).certainly_at_most(Real::ZERO) {
+        b.norm()
+    } else {
+        // No point of its line is nearer.
+        a.cross(u).abs().over(u.norm())
+    }
+}
+
+/// Whether some way may come back, in plain doubles.
+fn may_return(cycle: &Cycle<'_>, nodes: &[TrajectoryPoint], beside: f64) -> bool {
+    let ego = &cycle.ego;
+    let near = Times::<f64>::new(cycle).s_stop + ROUGH;
+    let far = near + beside;
+    let (mut from, mut was_far) = ([0.0; 2], false);
+    let (mut progress, mut greatest) = (0.0, 0.0);
+    nodes.iter().any(|node| {
+        let to = [node.x - ego.x, node.y - ego.y];
+        let u = minus(to, from);
+        let comes_to = split([ego.cos, ego.sin], to)[0];
+        let is_back = smaller(progress, comes_to) < greatest - BACK + ROUGH;
+        let squared = split(from, from)[0];
+        was_far |= squared > (far - 2.0 * ROUGH) * (far - 2.0 * ROUGH);
+        let bound = if is_back { far } else { near };
+        let leaves = split(from, u)[0] >= 0.0;
+        let may = (is_back || was_far) && {
+            let away = if leaves {
+                squared
+            } else if split(to, u)[0] <= 0.0 {
+                split(to, to)[0]
+            } else {
+                let [_, cross] = split(from, u);
+                cross * cross / split(u, u)[0]
+            };
+            away < bound * bound
+        };
+        (from, progress, greatest) = (to, comes_to, larger(greatest, comes_to));
+        may
+    })
+}
