@@ -90,7 +90,7 @@ fn leads_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 fn coming_back() {
     let (title, profile) = ("H-14, coming back", Profile::HARDENED.without(ModelRule::H11));
     let tally = hold(cases() / 4, title, profile, comes_back, near_threshold, conforming);
-    tally.assert_aimed(&["ii", "safe"]);
+    tally.assert_aimed(&["ii", "no_obstacle_check"]);
 }
 
 fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
