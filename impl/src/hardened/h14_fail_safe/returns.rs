@@ -91,19 +91,21 @@ fn may_return(cycle: &Cycle<'_>, nodes: &[TrajectoryPoint], beside: f64) -> bool
         let squared = split(from, from)[0];
         was_far |= squared > (far - 2.0 * ROUGH) * (far - 2.0 * ROUGH);
         let bound = if is_back { far } else { near };
-        let leaves = split(from, u)[0] >= 0.0;
-        let may = (is_back || was_far) && {
-            let away = if leaves {
-                squared
-            } else if split(to, u)[0] <= 0.0 {
-                split(to, to)[0]
-            } else {
-                let [_, cross] = split(from, u);
-                cross * cross / split(u, u)[0]
-            };
-            away < bound * bound
-        };
+        let is_asked = is_back || was_far;
+        let is_clear = !is_asked || least_square(squared, from, to, u) >= bound * bound;
         (from, progress, greatest) = (to, comes_to, larger(greatest, comes_to));
-        may
+        !is_clear
     })
+}
+
+/// The square of the least distance of the way from a to b, u from there, from p; that of a is known.
+fn least_square(squared: f64, a: [f64; 2], b: [f64; 2], u: [f64; 2]) -> f64 {
+    if split(a, u)[0] >= 0.0 {
+        return squared;
+    }
+    if split(b, u)[0] <= 0.0 {
+        return split(b, b)[0];
+    }
+    let cross = split(a, u)[1];
+    cross * cross / split(u, u)[0]
 }
