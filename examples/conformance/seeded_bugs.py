@@ -255,7 +255,7 @@ BUGS = [
              "H-14: places are 1/4 m apart for a CAV that is shorter, too"),
     hardened("road-at-points-only", "hardened.py", " and on_the_road(cycle, rule.places)", "",
              "H-14: the corridor is not asked at the places"),
-    hardened("aside-unasked", "fail_safe.py", "for point in parted(self.cycle)[0]]", "for point in []]",
+    hardened("aside-unasked", "fail_safe.py", "point)) for point in parted(self.cycle)[0]]", "point)) for point in []]",
              "H-14: points of the trajectory that are no nodes are not asked for reach"),
     hardened("goes-back", "fail_safe.py", "if self.goes_back() or self.comes_back():", "if self.goes_back():",
              "H-14: the path may lead back behind the CAV, or come back to it"),
