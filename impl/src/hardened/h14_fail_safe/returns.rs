@@ -4,7 +4,7 @@ use crate::hardened::h14_fail_safe::nodes::Nodes;
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{larger, smaller};
+use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::sweep::{minus, split};
@@ -76,32 +76,33 @@ fn least_distance([a, b]: [Vector; 2]) -> Real {
     }
 }
 
-/// Whether some way may come back, in plain doubles.
+/// Whether some way may come back, in plain doubles: a node before the first that is far away is behind an earlier one, or
+/// a way from there on is nearer.
 fn may_return(cycle: &Cycle<'_>, nodes: &[TrajectoryPoint], beside: f64) -> bool {
     let ego = &cycle.ego;
-    let near = Times::<f64>::new(cycle).s_stop + ROUGH;
-    let far = near + beside;
-    let (mut from, mut was_far) = ([0.0; 2], false);
-    let (mut progress, mut greatest) = (0.0, 0.0);
+    let far = Times::<f64>::new(cycle).s_stop + beside;
+    let (leaves, enters) = ((far - ROUGH) * (far - ROUGH), (far + ROUGH) * (far + ROUGH));
+    let (mut from, mut greatest, mut was_far) = ([0.0; 2], 0.0, false);
     nodes.iter().any(|node| {
         let to = [node.x - ego.x, node.y - ego.y];
-        let u = minus(to, from);
-        let comes_to = split([ego.cos, ego.sin], to)[0];
-        let is_back = smaller(progress, comes_to) < greatest - BACK + ROUGH;
-        let squared = split(from, from)[0];
-        was_far |= squared > (far - 2.0 * ROUGH) * (far - 2.0 * ROUGH);
-        let bound = if is_back { far } else { near };
-        let is_asked = is_back || was_far;
-        let is_clear = !is_asked || least_square(squared, from, to, u) >= bound * bound;
-        (from, progress, greatest) = (to, comes_to, larger(greatest, comes_to));
+        let is_clear = if was_far {
+            least_square(from, to) >= enters
+        } else {
+            let progress = split([ego.cos, ego.sin], to)[0];
+            let is_back = progress < greatest - BACK + ROUGH;
+            (was_far, greatest) = (split(to, to)[0] > leaves, larger(greatest, progress));
+            !is_back
+        };
+        from = to;
         !is_clear
     })
 }
 
-/// The square of the least distance of the way from a to b, u from there, from p; that of a is known.
-fn least_square(squared: f64, a: [f64; 2], b: [f64; 2], u: [f64; 2]) -> f64 {
+/// The square of the least distance of the way from a to b from p.
+fn least_square(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let u = minus(b, a);
     if split(a, u)[0] >= 0.0 {
-        return squared;
+        return split(a, a)[0];
     }
     if split(b, u)[0] <= 0.0 {
         return split(b, b)[0];
