@@ -134,6 +134,10 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
             ">",
         ),
         Rule::Slide => (format!("{point} is beside where the headings lead"), "m", ">"),
+        // Of the bounds of this rule only those of a heading and of a distance are least ones.
+        Rule::Reach if witness.compared[0] < witness.compared[1] => {
+            (format!("{point} leads back to the CAV, or its heading does"), "", "<")
+        }
         Rule::Reach => (format!("{point} is beyond reach of the CAV"), "m", ">"),
         Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
         Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
