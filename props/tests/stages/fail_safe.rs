@@ -29,6 +29,15 @@ fn hardened() {
         .assert_aimed(&["iv", "safe"]);
 }
 
+/// H-14.42: the sagitta is that of the longer side, which may be the width.
+#[test]
+fn wide_in_a_bend() {
+    let (title, profile) = ("H-14, wide in a bend", Profile::HARDENED);
+    let generator = fail_safe::wide_in_a_bend;
+    hold(cases() / 4, title, profile, generator, near_threshold, conforming)
+        .assert_aimed(&["iv", "safe"]);
+}
+
 /// A track whose word counts, or not, by one term of `spec/hardened/what-the-cav-saw.md`.
 #[test]
 fn what_the_cav_saw() {
@@ -74,7 +83,7 @@ pub fn too_much(cycle: &Cycle) -> Option<i64> {
 fn going_back() {
     let (title, profile) = ("H-14, going back", Profile::HARDENED);
     let tally = hold(cases() / 4, title, profile, leads_back, near_threshold, conforming);
-    tally.assert_aimed(&["ii", "safe"]);
+    tally.assert_aimed(&["ii", "no_obstacle_check"]);
 }
 
 fn leads_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {

@@ -47,8 +47,9 @@ pub(crate) fn return_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> O
                 return Some(compared([back, most]));
             }
         }
-        let away = if was_far { least_distance(ends) } else { near };
-        (!near.certainly_at_most(away)).then(|| compared([away, near]))
+        let away = least_distance(ends);
+        let is_near = was_far && !near.certainly_at_most(away);
+        is_near.then(|| compared([away, near]))
     })
 }
 

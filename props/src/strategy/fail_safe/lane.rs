@@ -62,6 +62,23 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
 /// On the inner side of a bend that the CAV follows: straight on it would meet the CAV, and along the route
 /// it is beside it, or just is not.
 pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    bend(draw, cycle, age_ns, |lane, at, length, w| lane.width(at, [length; 2], w))
+}
+
+/// The same, also of objects that are wider than they are long.
+pub fn wide_in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    bend(draw, cycle, age_ns, |lane, at, length, w| {
+        // Each time the width is exact to a tenth of what it was.
+        (0..16).fold(0.0, |width: f64, _| lane.width(at, [length, length.max(width)], w))
+    })
+}
+
+fn bend(
+    draw: &mut Draw<'_>,
+    cycle: &mut Cycle,
+    age_ns: i64,
+    width: fn(&Lane<'_>, Frame, f64, (f64, f64)) -> f64,
+) -> Aimed {
     let road = shape::frame(cycle);
     let radius = draw.pick(&[55.0, 60.0, 75.0, 52.0]);
     let side = draw.pick(&[1.0, -1.0]);
@@ -92,7 +109,7 @@ pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let velocity = draw.pick(&[6.0, 9.0, 12.0]);
     let w = (-velocity * now.cos, -velocity * now.sin);
     let length = draw.pick(&[2.0, 4.5]);
-    let width = Lane::of(cycle).width(now, length, w);
+    let width = width(&Lane::of(cycle), now, length, w);
     let width = draw.near(width).clamp(0.3, 5.0);
     let age = seconds(age_ns);
     let frame = Frame { x: now.x - age * w.0, y: now.y - age * w.1, ..now };
@@ -226,8 +243,8 @@ impl<'a> Lane<'a> {
         Self { cycle, path: Path::of(cycle) }
     }
 
-    /// How wide an object of this length may be, m.
-    fn width(&self, at: Frame, length: f64, w: (f64, f64)) -> f64 {
+    /// How wide an object of this length, and of this longer side, may be, m.
+    fn width(&self, at: Frame, [length, longer]: [f64; 2], w: (f64, f64)) -> f64 {
         let (near, _) = self.nearest((at.x, at.y));
         let q = (at.x - near.0, at.y - near.1);
         let distance = q.0.hypot(q.1);
@@ -244,7 +261,7 @@ impl<'a> Lane<'a> {
         let least = least.fold(f64::INFINITY, f64::min);
         let horizon = self.path.until(w.0.hypot(w.1));
         let drift = (w.0 * q.0 + w.1 * q.1).abs() / distance;
-        let sagitta = (length * length + ego.length * ego.length) / (6.0 * 30.0);
+        let sagitta = (longer * longer + ego.length * ego.length) / (6.0 * 30.0);
         let room = least - sagitta - drift * horizon;
         let (along, across) = (at.cos * q.0 + at.sin * q.1, at.cos * q.1 - at.sin * q.0);
         (2.0 * room * distance - along.abs() * length) / across.abs()

@@ -84,13 +84,23 @@ fn scene(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle
 }
 
+/// Beside a path in a bend an object that may be wider than it is long.
+pub fn wide_in_a_bend(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = scene(draw, profile);
+    put(draw, &mut cycle, ("wide in a bend", lane::wide_in_a_bend));
+    cycle
+}
+
 /// Puts one object where H-14 decides.
 pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
+    put(draw, cycle, AIMS[aim]);
+}
+
+fn put(draw: &mut Draw<'_>, cycle: &mut Cycle, (name, find): (&str, Aimer)) {
     // No other stage looks at it.
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
     let age_ns = draw.odd_ns(age_ns);
-    let (name, find) = AIMS[aim];
     let aimed = find(draw, cycle, age_ns);
     if name == "braked before" {
         seen_before(cycle, aimed);
