@@ -29,7 +29,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     }
     if profile == Profile::HARDENED && draw.one_in(2) {
         let aim = draw.below(fail_safe::AIMS.len());
-        fail_safe::decide(draw, &mut cycle, aim);
+        fail_safe::decide(draw, &mut cycle, fail_safe::AIMS[aim]);
         return cycle;
     }
     let horizon = obstacle::horizon_of_detections(&cycle);

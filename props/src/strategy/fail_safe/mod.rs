@@ -58,20 +58,16 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 /// A cycle that one of the `AIMS` is for.
 pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
     let mut cycle = scene(draw, profile);
-    decide(draw, &mut cycle, aim);
+    decide(draw, &mut cycle, AIMS[aim]);
     cycle
 }
 
 /// An object beside a path of a thousand points, which may have thousands of places; no limit of work decides.
-///
-/// # Panics
-/// Without an aim of that name.
 pub fn beside_many_points(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = scene(draw, profile);
     shape::divide(&mut cycle);
     cycle.parameters.work_limit = i64::MAX;
-    let aim = AIMS.iter().position(|(name, _)| *name == "beside");
-    decide(draw, &mut cycle, aim.expect("an aim"));
+    decide(draw, &mut cycle, ("beside", lane::object));
     cycle
 }
 
@@ -87,16 +83,12 @@ fn scene(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 /// Beside a path in a bend an object that may be wider than it is long.
 pub fn wide_in_a_bend(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = scene(draw, profile);
-    put(draw, &mut cycle, ("wide in a bend", lane::wide_in_a_bend));
+    decide(draw, &mut cycle, ("wide in a bend", lane::wide_in_a_bend));
     cycle
 }
 
-/// Puts one object where H-14 decides.
-pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
-    put(draw, cycle, AIMS[aim]);
-}
-
-fn put(draw: &mut Draw<'_>, cycle: &mut Cycle, (name, find): (&str, Aimer)) {
+/// Puts one object where H-14 decides, by one of the `AIMS` or another.
+pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, (name, find): (&str, Aimer)) {
     // No other stage looks at it.
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
