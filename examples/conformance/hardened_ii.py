@@ -13,15 +13,22 @@ def stage_ii(cycle):
 
 
 def starts_at_the_cav(cycle):
-    """H-07, the first point, and how far beside the CAV the trajectory passes."""
+    """H-07 but for the route: the start, and no point farther than the CAV can drive by then."""
     ego, first, parameters = cycle["ego"], cycle["trajectory"]["points"][0], cycle["parameters"]
     late_ns = cycle["now_ns"] - first["t_ns"]
-    limit = parameters["start_tolerance"] + ego["speed"] * max(late_ns, 0) / S
     return (abs(late_ns) <= parameters["max_age_ns"]
-            and distance(first, ego) <= limit - EPS
+            and all(distance(p, ego) <= parameters["start_tolerance"]
+                    + way(cycle, (p["t_ns"] - cycle["now_ns"]) / S) - EPS
+                    for p in cycle["trajectory"]["points"])
             and dot(first, ego) > EPS
             and abs(cross(first, ego)) <= 0.17 - EPS
             and float(passing_distance(cycle)) <= parameters["lateral_tolerance"] - EPS)
+
+
+def way(cycle, t):
+    """How far the CAV drives from now to t, or drove from t to now."""
+    v = cycle["ego"]["speed"]
+    return -v * t if t < 0 else v * t + cycle["parameters"]["a_max"] * t**2 / 2
 
 
 def on_the_route(cycle):

@@ -91,8 +91,8 @@ pub enum Rule {
     ThetaMap,
     /// H-07: time of the first point not within `max_age` of now.
     StartTime,
-    /// H-07: first point too far from the CAV.
-    StartPosition,
+    /// H-07: a point farther from the CAV than it can drive by then.
+    Position,
     /// H-07: the first heading is not the CAV's.
     StartHeading,
     /// H-07: the trajectory passes the CAV too far aside.

@@ -76,8 +76,8 @@ macro_rules! witness_rules {
             ThetaMap = "theta_map";
             /// H-07: time of the first point not within max_age of now.
             StartTime = "start_time";
-            /// H-07: first point too far from the CAV.
-            StartPosition = "start_position";
+            /// H-07: a point farther from the CAV than it can have driven by then.
+            Position = "position";
             /// H-07: the first heading is not the CAV's.
             StartHeading = "start_heading";
             /// H-07: the trajectory passes the CAV too far aside.

@@ -55,7 +55,7 @@ fn what_c_is_told_has_the_name_of_rust() {
         Rule::NoAssignment,
         Rule::ThetaMap,
         Rule::StartTime,
-        Rule::StartPosition,
+        Rule::Position,
         Rule::StartHeading,
         Rule::StartOffset,
         Rule::Corridor,

@@ -15,7 +15,7 @@ use crate::stages::llcc::sweep::split;
 /// it turns faster than 1.7 rad/s.
 const MOST_TURNED: f64 = 0.17;
 
-/// Time, place and heading of the first point.
+/// Time and heading of the first point, where each point is at its time, and where the trajectory passes the CAV.
 pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let first = points.first()?;
     let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
@@ -26,16 +26,15 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
             [age_ns.saturating_abs(), max_age_ns].map(|time_ns| Real::seconds(time_ns).value());
         return Some(Witness::of(Rule::StartTime, compared).at_point(0));
     }
-    let moved = Real::new(cycle.ego.speed) * Real::seconds(age_ns.max(0));
-    let limit = Real::new(cycle.parameters.start_tolerance) + moved;
-    let off = distance([cycle.ego.x, cycle.ego.y], [first.x, first.y]);
+    let ahead = position_failure(cycle, points);
+    if ahead.is_some() {
+        return ahead;
+    }
     let [own, heading] = [(cycle.ego.cos, cycle.ego.sin), (first.cos, first.sin)]
         .map(|(cos, sin)| Vector::new(cos, sin));
     let (along, turned) = (own.dot(heading), own.cross(heading).abs());
     let at_most = |value: Real, limit: Real| (value, limit, value.certainly_at_most(limit));
     let rules = [
-        // H-07.2
-        (Rule::StartPosition, at_most(off, limit)),
         // H-07.3, H-07.4
         (Rule::StartHeading, (along, Real::ZERO, Real::ZERO.certainly_below(along))),
         (Rule::StartHeading, at_most(turned, Real::new(MOST_TURNED))),
@@ -49,6 +48,28 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     broken.map(|(rule, (value, limit, _))| {
         Witness::of(rule, [value.value(), limit.value()]).at_point(0)
     })
+}
+
+/// A point that is farther from the CAV than it can drive by then (H-07.2).
+fn position_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let p = [cycle.ego.x, cycle.ego.y];
+    points.iter().enumerate().find_map(|(index, point)| {
+        let off = distance(p, [point.x, point.y]);
+        let driven = way(cycle, elapsed_ns(cycle.now_ns, point.t_ns));
+        let limit = Real::new(cycle.parameters.start_tolerance) + driven;
+        let witness = Witness::of(Rule::Position, [off.value(), limit.value()]).at_point(index);
+        (!off.certainly_at_most(limit)).then_some(witness)
+    })
+}
+
+/// How far the CAV drives from now until then, or drove from then until now.
+fn way(cycle: &Cycle<'_>, t_ns: i64) -> Real {
+    let (v_now, t) = (Real::new(cycle.ego.speed), Real::seconds(t_ns));
+    if t_ns < 0 {
+        v_now * t.abs()
+    } else {
+        v_now * t + Real::new(cycle.parameters.a_max * 0.5) * t.squared()
+    }
 }
 
 /// Whether a trajectory that is so old starts about now.

@@ -1,4 +1,5 @@
-//! H-07: the trajectory starts now and here, as the CAV is, stays in the corridor and heads along the route.
+//! H-07: the trajectory starts now and here, as the CAV is, runs ahead of it nowhere, stays in the corridor and heads
+//! along the route.
 
 use crate::hardened::h14_fail_safe::widening::passing_distance;
 use crate::input::scene::{Point, Scene};
@@ -7,9 +8,14 @@ use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::OnMap;
 
-/// The trajectory does not start now and here, leaves the corridor, or heads against the route.
+/// The trajectory does not start now and here, runs ahead of the CAV, leaves the corridor, or heads against the route.
 pub fn failure(scene: &Scene, map: &OnMap) -> Option<Witness> {
-    start_failure(scene, map.trajectory)
+    let start = &map.trajectory[0];
+    let at_start = |witness: Witness| witness.at_point(0);
+    (time_failure(scene, start).map(at_start))
+        .or_else(|| position_failure(scene, map.trajectory))
+        .or_else(|| start_heading_failure(scene, start).map(at_start))
+        .or_else(|| start_offset_failure(scene, map.trajectory).map(at_start))
         .or_else(|| corridor_failure(scene, map))
         .or_else(|| direction_failure(scene, map))
 }
@@ -51,23 +57,37 @@ fn heading_failure(
     Witness::unless(passes, Rule::Direction, &along[0][0], &zero)
 }
 
-/// The trajectory starts now and here.
-fn start_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let start = &trajectory[0];
-    let age_ns = i128::from(scene.now_ns) - i128::from(start.t_ns);
+/// The trajectory starts now.
+fn time_failure(scene: &Scene, start: &Point) -> Option<Witness> {
+    let age_ns = -after_now_ns(scene, start);
     let max_age = i128::from(scene.parameters.max_age_ns);
-    if age_ns.abs() > max_age {
-        let (age, limit) = (Real::seconds(age_ns.abs()), Real::seconds(max_age));
-        return Some(Witness::new(Rule::StartTime, &age, &limit).at_point(0));
+    let (age, limit) = (Real::seconds(age_ns.abs()), Real::seconds(max_age));
+    Witness::unless(age_ns.abs() <= max_age, Rule::StartTime, &age, &limit)
+}
+
+/// The first point that is farther from p than start_tolerance and what the CAV can drive by its time.
+fn position_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    trajectory.iter().enumerate().find_map(|(i, point)| {
+        let distance = point.pose.origin.distance(&scene.ego.position);
+        let limit = &scene.parameters.start_tolerance + driven(scene, point);
+        let passes = scene.reads.at_most(&distance, &limit);
+        Some(Witness::unless(passes, Rule::Position, &distance, &limit)?.at_point(i))
+    })
+}
+
+/// What the CAV can drive by the time t of a point: v_now abs(t) for t < 0, else v_now t + a_max t^2 / 2, m.
+fn driven(scene: &Scene, point: &Point) -> Real {
+    let t = Real::seconds(after_now_ns(scene, point));
+    let steady = &scene.ego.v_now * t.abs();
+    if t < Real::zero() {
+        return steady;
     }
-    let driven = &scene.ego.v_now * Real::seconds(age_ns.max(0));
-    let limit = &scene.parameters.start_tolerance + driven;
-    let distance = start.pose.origin.distance(&scene.ego.position);
-    let passes = scene.reads.at_most(&distance, &limit);
-    Witness::unless(passes, Rule::StartPosition, &distance, &limit)
-        .or_else(|| start_heading_failure(scene, start))
-        .or_else(|| start_offset_failure(scene, trajectory))
-        .map(|witness| witness.at_point(0))
+    steady + &scene.parameters.a_max * t.square() / Real::from_integer(2)
+}
+
+/// t, the time of a point after now: negative for a point before now.
+fn after_now_ns(scene: &Scene, point: &Point) -> i128 {
+    i128::from(point.t_ns) - i128::from(scene.now_ns)
 }
 
 /// The first heading and the CAV's have a positive dot product and abs(heading x heading) <= 0.17.

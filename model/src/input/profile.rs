@@ -41,7 +41,7 @@ macro_rules! hardened_rules {
             H06 = "H-06" witnesses ["v occupied", "v unknown", "v outside"];
             /// The trajectory starts now and here, and keeps to the route.
             H07 = "H-07" witnesses [
-                "ii start_time", "ii start_position", "ii start_heading", "ii start_offset",
+                "ii start_time", "ii position", "ii start_heading", "ii start_offset",
                 "ii corridor", "ii direction"
             ];
             /// Make before break.

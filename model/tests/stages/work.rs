@@ -43,7 +43,7 @@ fn more_than_ten_to_the_ten_comparisons_are_an_error() {
 fn only_what_a_stage_is_about_to_do_counts() {
     let mut cycle = crowded(413);
     cycle.ego.y = 2.5;
-    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::Position));
     let mut paper = crowded(413);
     paper.profile = Profile::PAPER;
     assert!(passes(&paper, Stage::Iv));

@@ -73,7 +73,10 @@ fn least_distance([a, b]: [Vector; 2]) -> Real {
         b.norm()
     } else {
         // No point of its line is nearer.
-        a.cross(u).abs().over(u.norm())
+        let line = a.cross(u).abs().over(u.norm());
+        // Of a way of next to no length the line is lost in underflow.
+        let length = u.x.magnitude() + u.y.magnitude();
+        if line.off().is_finite() { line } else { a.norm().widened(length) }
     }
 }
 

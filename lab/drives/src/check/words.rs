@@ -104,7 +104,9 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
             (format!("{point} outside the corridor and off the reference path"), "m", ">")
         }
         Rule::StartTime => ("time of the first point is far from now".to_owned(), "s", ">"),
-        Rule::StartPosition => ("first point is far from the CAV".to_owned(), "m", ">"),
+        Rule::Position => {
+            (format!("{point} farther from the CAV than it can drive by then"), "m", ">")
+        }
         // Of the two bounds of this rule the first is 0.
         Rule::StartHeading if witness.compared[1] == 0.0 => {
             ("first heading is against the CAV's, by their dot product".to_owned(), "", "<=")

@@ -80,7 +80,7 @@ fn reports() -> Vec<(&'static str, Report)> {
     let mut reports = vec![
         ("mean", failed(Stage::I, witness(Rule::MeanCost))),
         ("corridor", failed(Stage::Ii, corridor)),
-        ("start", failed(Stage::Ii, Witness { point: Some(0), ..witness(Rule::StartPosition) })),
+        ("start", failed(Stage::Ii, Witness { point: Some(0), ..witness(Rule::Position) })),
         ("track", failed(Stage::Iii, track)),
         ("fail-safe", failed(Stage::Iv, fail_safe)),
         ("detection", failed(Stage::Iv, detection)),

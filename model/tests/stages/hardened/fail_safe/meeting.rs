@@ -18,7 +18,8 @@ fn what_goes_far_has_a_greater_margin() {
         let at = |[x, y]: [f64; 2]| CrossSection { x, y, left: [x, y + 3.0], right: [x, y - 3.0] };
         cycle.route.cross_sections = [[-100.0, 0.0], [17.0, 0.0], to].map(at).into();
         points(&mut cycle).truncate(10);
-        cycle.ego.speed = 0.0;
+        // The CAV stands, and the times of the points are not asked.
+        (cycle.ego.speed, cycle.parameters.start_tolerance) = (0.0, 10.0);
         cycle.parameters.delta = 1e-8;
         (cycle.parameters.t_yield, cycle.parameters.a_yield) = (60.0, 0.1);
         (cycle.tracks, cycle.detections) = (tracks(vec![it]), None);
