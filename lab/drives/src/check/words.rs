@@ -140,7 +140,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         Rule::Reach if witness.compared[0] < witness.compared[1] => {
             (format!("{point} leads back to the CAV, or its heading does"), "", "<")
         }
-        Rule::Reach => (format!("{point} is beyond reach of the CAV"), "m", ">"),
+        Rule::Reach => (format!("{point} is beyond reach of the CAV, or leads back"), "m", ">"),
         Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
         Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
         Rule::FailSafe => {
