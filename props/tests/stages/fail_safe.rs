@@ -110,7 +110,8 @@ fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.ego.speed = 8.0;
     let parameters = &mut cycle.parameters;
     (parameters.a_b, parameters.a_max, parameters.tau) = (8.0, 2.0, 0.25);
-    parameters.lateral_tolerance = 0.5;
+    // Its times run ahead of the CAV.
+    (parameters.start_tolerance, parameters.lateral_tolerance) = (100.0, 0.5);
     let (s_stop, bound) = (6.578_125, 7.578_125);
     let at = |f: f64, distance: f64| [f, (distance * distance - f * f).sqrt()];
     let way = if is_aside {

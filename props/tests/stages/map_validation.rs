@@ -3,13 +3,13 @@
 
 use crate::agreed::reports;
 use mufasa_model::input::cycle::{
-    CrossSection, Cycle, DetectionList, Profile, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Ego, Profile, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::report::Rule;
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::differential::{agree, near_threshold, runner};
-use mufasa_props::strategy::base::{self, Frame};
+use mufasa_props::strategy::base::{self, Frame, seconds};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{map_validation, roads};
 use proptest::strategy::Strategy;
@@ -36,6 +36,37 @@ fn roads_hardened() {
     agree("roads", Profile::HARDENED, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
 }
 
+/// H-07.2, MARGIN-01: a point before now, at now or after it is about as far from the CAV as it can drive by then.
+#[test]
+fn positions() {
+    agree("positions", Profile::HARDENED, runs_ahead, near_threshold)
+        .assert_aimed(&["ii", "no_obstacle_check"]);
+}
+
+/// A straight plan, of which the second point is about as far as the CAV can drive by then.
+pub fn runs_ahead(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let frame = base::frame(draw);
+    let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);
+    let Ego { speed, length, .. } = cycle.ego;
+    let late_ns = draw.pick(&[60_000_000, -30_000_000, 30_000_000, 0]);
+    let parameters = &mut cycle.parameters;
+    parameters.max_age_ns = parameters.max_age_ns.max(60_000_000);
+    // So near that a step leads there.
+    parameters.start_tolerance = draw.pick(&[0.5, 1.0, 2.0]);
+    let after_ns = draw.odd_ns(50_000_000) - late_ns;
+    let t = seconds(after_ns);
+    let gained = if after_ns < 0 { 0.0 } else { parameters.a_max * t * t / 2.0 };
+    let far = draw.near(parameters.start_tolerance + speed * t.abs() + gained).min(0.99 * length);
+    let way = [(-late_ns, 0.0), (after_ns, far), (after_ns + 100_000_000, far + 0.1)];
+    let point = |(after_ns, f): (i64, f64)| {
+        let (x, y) = frame.at(f, 0.0);
+        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos: frame.cos, sin: frame.sin }
+    };
+    let points = way.map(point).to_vec();
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+    cycle
+}
+
 /// The CAV stands on a straight road that goes at an angle to the frame, in degrees. Its trajectory turns to the
 /// right, in two steps, from 30 degrees left of the frame to 30 degrees right of it.
 fn turning_right(frame: Frame, road: f64) -> Cycle {
@@ -48,6 +79,7 @@ fn turning_right(frame: Frame, road: f64) -> Cycle {
     let stamp_ns = cycle.now_ns;
     (cycle.ego.cos, cycle.ego.sin) = turned(30.0);
     cycle.ego.speed = 0.0;
+    cycle.parameters.start_tolerance = 10.0;
     let (cos, sin) = turned(road);
     cycle.route = base::road(Frame { cos, sin, ..frame }, 10.0);
     cycle.detections = Some(DetectionList { stamp_ns, items: Vec::new() });

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::map_validation::runs_ahead;
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::input::profile::HardenedRule;
@@ -37,7 +38,8 @@ fn any_set_of_rules() {
 }
 
 fn study(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    let mut cycle = whole::cycle(draw, profile);
+    let mut cycle =
+        if draw.one_in(8) { runs_ahead(draw, profile) } else { whole::cycle(draw, profile) };
     for rule in HardenedRule::ALL {
         if draw.one_in(6) {
             cycle.profile = cycle.profile.without(rule);
