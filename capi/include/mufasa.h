@@ -213,7 +213,7 @@ enum MufasaRule
   MUFASA_RULE_NO_ASSIGNMENT = 4,
   MUFASA_RULE_THETA_MAP = 5,
   MUFASA_RULE_START_TIME = 6,
-  MUFASA_RULE_START_POSITION = 7,
+  MUFASA_RULE_POSITION = 7,
   MUFASA_RULE_START_HEADING = 8,
   MUFASA_RULE_START_OFFSET = 9,
   MUFASA_RULE_CORRIDOR = 10,
@@ -528,7 +528,7 @@ typedef struct MufasaParameters {
   // H-14: greatest acceleration of the CAV, m/s^2.
   // Default: 3.0
   double a_max;
-  // H-07: how far off the CAV a trajectory may start, m.
+  // H-07: how much farther from the CAV than it can drive a point may be, m.
   // Default: 2.0
   double start_tolerance;
   // H-11: greatest speed of a trajectory, m/s.
@@ -624,8 +624,10 @@ typedef struct MufasaTrajectoryPoint {
 // the cycle, which stands still.
 //
 // In the hardened profile stage ii asks of the points, over their whole length:
-// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
-//   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
+// * start: the first within `max_age_ns` of now, at most `lateral_tolerance` aside, heading as the CAV to about 10
+//   degrees (H-07);
+// * position: none farther from the CAV's reference point than the CAV can drive by its time, speeding up by
+//   `a_max`, and `start_tolerance` (H-07);
 // * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
 //   turn as a vehicle can (H-11);
 // * reach: the path from the CAV through those that are ahead of it, and straight on, beyond what the CAV can

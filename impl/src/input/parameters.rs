@@ -32,7 +32,7 @@ macro_rules! parameters {
             tau: f64 = 0.1 in [0.0, 60.0];
             /// H-14: greatest acceleration of the CAV, m/s^2.
             a_max: f64 = 3.0 in [0.1, 100.0];
-            /// H-07: how far off the CAV a trajectory may start, m.
+            /// H-07: how much farther from the CAV than it can drive a point may be, m.
             start_tolerance: f64 = 2.0 in [1e-3, 1e3];
             /// H-11: greatest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in [f64::from_bits(1), 1e3];

@@ -105,8 +105,10 @@ impl<'c> Inputs<'c> {
     ///
     /// Points are places of the reference point that `ego` names, in order of time, at most 1024.
     /// In the hardened profile stage ii asks of the points, over their whole length:
-    /// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
-    ///   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
+    /// * start: the first within `max_age_ns` of now, at most `lateral_tolerance` aside, heading as the CAV to about 10
+    ///   degrees (H-07);
+    /// * position: none farther from the CAV's reference point than the CAV can drive by its time, speeding up by
+    ///   `a_max`, and `start_tolerance` (H-07);
     /// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
     ///   turn as a vehicle can (H-11);
     /// * corridor: every point inside, none heading against the route (H-07);
