@@ -6,10 +6,11 @@ use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
-use crate::numbers::time::elapsed_ns;
+use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::{Rule, Witness};
+use crate::stages::distances::Number;
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, STEPS, Segment};
-use crate::stages::llcc::sweep::split;
+use crate::stages::llcc::sweep::{minus, split};
 
 /// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
 /// it turns faster than 1.7 rad/s.
@@ -54,22 +55,26 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
 fn position_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let p = [cycle.ego.x, cycle.ego.y];
     points.iter().enumerate().find_map(|(index, point)| {
-        let off = distance(p, [point.x, point.y]);
-        let driven = way(cycle, elapsed_ns(cycle.now_ns, point.t_ns));
-        let limit = Real::new(cycle.parameters.start_tolerance) + driven;
+        let (to, t_ns) = ([point.x, point.y], elapsed_ns(cycle.now_ns, point.t_ns));
+        let (way, time_ns) = (minus(to, p), t_ns.saturating_abs());
+        // Of most points plain doubles tell, which err by less than a millionth.
+        let rough = farthest(cycle, t_ns, seconds(time_ns)) * (1.0 - 1e-6);
+        if split(way, way)[0] < rough * rough {
+            return None;
+        }
+        let (off, limit) = (distance(p, to), farthest(cycle, t_ns, Real::seconds(time_ns)));
         let witness = Witness::of(Rule::Position, [off.value(), limit.value()]).at_point(index);
         (!off.certainly_at_most(limit)).then_some(witness)
     })
 }
 
-/// How far the CAV drives from now until then, or drove from then until now.
-fn way(cycle: &Cycle<'_>, t_ns: i64) -> Real {
-    let (v_now, t) = (Real::new(cycle.ego.speed), Real::seconds(t_ns));
-    if t_ns < 0 {
-        v_now * t.abs()
-    } else {
-        v_now * t + Real::new(cycle.parameters.a_max * 0.5) * t.squared()
-    }
+/// How far from p a point may be whose time is so far from now.
+fn farthest<N: Number>(cycle: &Cycle<'_>, t_ns: i64, time: N) -> N {
+    let parameters = &cycle.parameters;
+    let a_max = if t_ns < 0 { 0.0 } else { parameters.a_max };
+    let [tolerance, v_now, half] =
+        [parameters.start_tolerance, cycle.ego.speed, a_max * 0.5].map(N::from_double);
+    tolerance.plus(v_now.times(time)).plus(half.times(time).times(time))
 }
 
 /// Whether a trajectory that is so old starts about now.
