@@ -70,3 +70,23 @@ fn steps_are_exact_beside_each_multiple() {
     }
     assert!(more.iter().all(|&it| it > 5000), "{more:?}");
 }
+
+/// MARGIN-18, MARGIN-19: where the path leads aside at `s_stop`, it is open where it ends, except on a micrometre.
+#[test]
+fn an_end_is_certain_where_it_is_known_to_a_micrometre() {
+    let parameters = Parameters { tau: 0.25, a_max: 2.0, ..Parameters::default() };
+    let cycle = standing(8.0, parameters);
+    let certain = |places: &[[f64; 2]]| {
+        let point = |&[x, y]: &[f64; 2]| TrajectoryPoint { t_ns: 0, x, y, cos: 1.0, sin: 0.0 };
+        let points: Vec<_> = places.iter().map(point).collect();
+        let pieces = Path::new(Nodes::new(&cycle, &points)).pieces();
+        pieces.map(|it| it.has_certain_end()).collect::<Vec<_>>()
+    };
+    let s_stop = 6.578_125;
+    assert_eq!(certain(&[[6.0, 0.0], [7.0, 0.0]]), [true; 2]);
+    assert_eq!(certain(&[[s_stop, 0.0], [s_stop, 0.75], [9.0, 0.75]]), [true, false, true]);
+    assert_eq!(certain(&[[s_stop, 0.0], [s_stop, 1e-7], [9.0, 1e-7]]), [true; 3]);
+    // The last place of these is by its distance: of several places, and of one.
+    assert_eq!(certain(&[[s_stop, 0.0], [s_stop, 9.0]]), [true, false]);
+    assert_eq!(certain(&[[s_stop, 0.0], [s_stop, 3.875], [s_stop, 4.0]]), [true, false, true]);
+}
