@@ -55,8 +55,8 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
         (Attack::Backwards, Some(At(Stage::Ii)), Some(At(Stage::Ii))),
         // F-16.
         (Attack::Frozen, None, Some(At(Stage::Ii))),
-        // F-22: times decide nothing in H-14, and here nothing is in the way.
-        (Attack::TooFast, None, None),
+        // F-66: in H-14 times decide nothing (F-22).
+        (Attack::TooFast, None, Some(At(Stage::Ii))),
         // Late data are not used, which is safe; but places of 0.3 s ago tell nothing of now.
         (Attack::Late, None, Some(At(Stage::I))),
         // F-31, F-30, F-34: the lead is left out, or said to be where it is not.
