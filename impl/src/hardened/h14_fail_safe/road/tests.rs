@@ -1,7 +1,11 @@
 //! Places that are found in the corridor are in it; those in the middle of it are found.
 
-use crate::input::cycle::{CrossSection, Route};
+use crate::hardened::h14_fail_safe::road::road_failure;
+use crate::hardened::h14_fail_safe::spot::tests::standing;
+use crate::input::cycle::{CrossSection, Cycle, Route, TrajectoryPoint};
+use crate::input::parameters::Parameters;
 use crate::random::Random;
+use crate::report::Rule;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
 /// Small whole numbers, so that corners meet, turn either way round and lie on one line.
@@ -52,5 +56,22 @@ fn what_is_on_a_side_of_two_triangles_is_found() {
         [[2.0, 2.0_f64.next_up()], [2.0, 2.0 - 1e-7], [-0.25, 0.0], [8.25, 0.0], [4.0, 2.25]]
     {
         assert!(route.between(outside).is_none(), "{outside:?}");
+    }
+}
+
+/// H-14.58: a path that leads aside at `s_stop`, where it is open at which of its places it ends.
+#[test]
+fn a_place_outside_is_found_where_the_end_is_open() {
+    let s_stop = 6.578_125;
+    let sections: [CrossSection; 2] =
+        [-100.0, 100.0].map(|x: f64| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] });
+    let parameters = Parameters { tau: 0.25, a_max: 2.0, ..Parameters::default() };
+    let route = Route { closed: false, cross_sections: &sections };
+    let cycle = Cycle { route, ..standing(8.0, parameters) };
+    let point = |[x, y]: [f64; 2]| TrajectoryPoint { t_ns: 0, x, y, cos: 1.0, sin: 0.0 };
+    for (left, outside) in [(1.75, None), (2.5, Some(Rule::Corridor))] {
+        let points = [[s_stop, 0.0], [s_stop, left]].map(point);
+        let found = road_failure(&cycle, IndexedRoute::new(&route, None), &points);
+        assert_eq!(found.map(|it| it.rule), outside, "{left}");
     }
 }
