@@ -94,7 +94,7 @@ fn leads_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 }
 
 /// H-14.68, MARGIN-01: the path goes aside, to about the bound of distance and back to about s_stop; or it goes farther
-/// ahead, and comes back at about the bound.
+/// ahead, and comes back at about the bound, backwards or forwards.
 #[test]
 fn coming_back() {
     let (title, profile) = ("H-14, coming back", Profile::HARDENED.without(ModelRule::H11));
@@ -105,7 +105,7 @@ fn coming_back() {
 fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let far = if draw.one_in(2) { draw.near(0.0) } else { draw.range(-0.2, 2.0) };
     let near = if draw.one_in(2) { draw.near(0.0) } else { draw.range(-0.5, 0.2) };
-    let is_aside = draw.one_in(2);
+    let shape = draw.below(4);
     let mut cycle = leads(draw, profile, 30.0, &[]);
     cycle.ego.speed = 8.0;
     let parameters = &mut cycle.parameters;
@@ -114,8 +114,11 @@ fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     (parameters.start_tolerance, parameters.lateral_tolerance) = (100.0, 0.5);
     let (s_stop, bound) = (6.578_125, 7.578_125);
     let at = |f: f64, distance: f64| [f, (distance * distance - f * f).sqrt()];
-    let way = if is_aside {
+    let way = if shape < 2 {
         vec![[0.0, 0.0], [2.6, 0.6], at(6.0, s_stop), at(6.0, bound + far), at(6.0, s_stop + near)]
+    } else if shape == 2 {
+        let y = bound + near;
+        vec![[0.0, 0.0], [9.6, 0.0], [9.6, 20.0], [-5.0, 20.0], [-5.0, y], [12.0, y]]
     } else {
         vec![[0.0, 0.0], [9.6, 0.0], [9.6, bound + far], at(3.0, bound + near)]
     };
@@ -140,7 +143,7 @@ fn leads(
 }
 
 /// All with the CAV's heading.
-fn plan(cycle: &Cycle, points: &[(i64, [f64; 2])]) -> Trajectory {
+pub fn plan(cycle: &Cycle, points: &[(i64, [f64; 2])]) -> Trajectory {
     let Ego { x, y, cos, sin, .. } = cycle.ego;
     let frame = Frame { x, y, cos, sin };
     let point = |&(after_ns, [f, left]): &(i64, [f64; 2])| {

@@ -2,6 +2,7 @@
 //! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-14).
 
 use crate::agreed::reports;
+use crate::fail_safe::plan;
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, DetectionList, Ego, Profile, Trajectory, TrajectoryPoint,
 };
@@ -58,12 +59,7 @@ pub fn runs_ahead(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let gained = if after_ns < 0 { 0.0 } else { parameters.a_max * t * t / 2.0 };
     let far = draw.near(parameters.start_tolerance + speed * t.abs() + gained).min(0.99 * length);
     let way = [(-late_ns, 0.0), (after_ns, far), (after_ns + 100_000_000, far + 0.1)];
-    let point = |(after_ns, f): (i64, f64)| {
-        let (x, y) = frame.at(f, 0.0);
-        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos: frame.cos, sin: frame.sin }
-    };
-    let points = way.map(point).to_vec();
-    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+    cycle.trajectory = Some(plan(&cycle, &way.map(|(after_ns, f)| (after_ns, [f, 0.0]))));
     cycle
 }
 
