@@ -114,13 +114,19 @@ fn comes_back(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     (parameters.start_tolerance, parameters.lateral_tolerance) = (100.0, 0.5);
     let (s_stop, bound) = (6.578_125, 7.578_125);
     let at = |f: f64, distance: f64| [f, (distance * distance - f * f).sqrt()];
-    let way = if shape < 2 {
-        vec![[0.0, 0.0], [2.6, 0.6], at(6.0, s_stop), at(6.0, bound + far), at(6.0, s_stop + near)]
-    } else if shape == 2 {
-        let y = bound + near;
-        vec![[0.0, 0.0], [9.6, 0.0], [9.6, 20.0], [-5.0, 20.0], [-5.0, y], [12.0, y]]
-    } else {
-        vec![[0.0, 0.0], [9.6, 0.0], [9.6, bound + far], at(3.0, bound + near)]
+    let way = match shape {
+        0 => {
+            let y = bound + near;
+            vec![[0.0, 0.0], [9.6, 0.0], [9.6, 20.0], [-5.0, 20.0], [-5.0, y], [12.0, y]]
+        }
+        1 => vec![[0.0, 0.0], [9.6, 0.0], [9.6, bound + far], at(3.0, bound + near)],
+        _ => vec![
+            [0.0, 0.0],
+            [2.6, 0.6],
+            at(6.0, s_stop),
+            at(6.0, bound + far),
+            at(6.0, s_stop + near),
+        ],
     };
     let way: Vec<(i64, [f64; 2])> = (0..).map(|k| 200_000_000 * k).zip(way).collect();
     cycle.trajectory = Some(plan(&cycle, &way));
