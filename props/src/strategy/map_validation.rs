@@ -2,7 +2,7 @@
 //! and H-14's reach (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
 use mufasa_model::input::cycle::{
-    CrossSection, Cycle, DetectionList, Profile, Route, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Ego, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::services::configuration::Configuration;
 
@@ -26,6 +26,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (_, 2 | 3) => corridor_edge(draw, frame, &mut cycle),
         (_, 4) => crooked_road(draw, frame, &mut cycle),
         (Profile::PAPER, _) => anywhere(draw, frame, &mut cycle),
+        (_, 5) if draw.one_in(2) => positions(draw, frame, &mut cycle),
         (_, 5) => start(draw, frame, &mut cycle),
         (_, 6) => direction(draw, frame, &mut cycle),
         (_, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
@@ -202,7 +203,10 @@ fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             draw.odd_ns(late.max(0)) + late.min(0)
         }
     };
-    let limit = parameters.start_tolerance + cycle.ego.speed * seconds(late).max(0.0);
+    let t = seconds(late);
+    // Late is negative where the first point is ahead of now.
+    let gained = if late < 0 { parameters.a_max * t * t / 2.0 } else { 0.0 };
+    let limit = parameters.start_tolerance + cycle.ego.speed * t.abs() + gained;
     let distance = if draw.one_in(4) { 0.0 } else { draw.near(limit) };
     let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.0, 1.0), (0.8, -0.6), (-1.0, 0.0), (0.6, 0.8)]);
     // Beside the start as far as at the end of the tolerance, or at the limit to the side.
@@ -224,6 +228,27 @@ fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             point.t_ns -= late;
         }
     }
+}
+
+/// H-07.2: a straight plan, of which the second point is about as far as the CAV can drive by then.
+pub fn positions(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let late_ns = draw.pick(&[60_000_000, -30_000_000, 30_000_000, 0]);
+    let parameters = &mut cycle.parameters;
+    parameters.max_age_ns = parameters.max_age_ns.max(60_000_000);
+    // So near that a step leads there.
+    parameters.start_tolerance = draw.pick(&[0.5, 1.0, 2.0]);
+    let after_ns = draw.odd_ns(50_000_000) - late_ns;
+    let t = seconds(after_ns);
+    let gained = if after_ns < 0 { 0.0 } else { parameters.a_max * t * t / 2.0 };
+    let limit = draw.near(parameters.start_tolerance + cycle.ego.speed * t.abs() + gained);
+    let far = limit.min(0.99 * cycle.ego.length);
+    let Ego { x, y, cos, sin, .. } = cycle.ego;
+    let way = [(-late_ns, 0.0), (after_ns, far), (after_ns + 100_000_000, far + 0.1)];
+    let points = way.map(|(after_ns, along)| {
+        let (x, y) = Frame { x, y, ..frame }.at(along, 0.0);
+        TrajectoryPoint { t_ns: cycle.now_ns + after_ns, x, y, cos, sin }
+    });
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points: points.to_vec() });
 }
 
 /// H-07: headings nearly across the nearest segment, at corners where several are nearest.

@@ -29,15 +29,6 @@ fn hardened() {
         .assert_aimed(&["iv", "safe"]);
 }
 
-/// H-14.42: the sagitta is that of the longer side, which may be the width.
-#[test]
-fn wide_in_a_bend() {
-    let (title, profile) = ("H-14, wide in a bend", Profile::HARDENED);
-    let generator = fail_safe::wide_in_a_bend;
-    hold(cases() / 4, title, profile, generator, near_threshold, conforming)
-        .assert_aimed(&["iv", "safe"]);
-}
-
 /// A track whose word counts, or not, by one term of `spec/hardened/what-the-cav-saw.md`.
 #[test]
 fn what_the_cav_saw() {

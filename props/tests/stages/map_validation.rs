@@ -2,15 +2,14 @@
 //! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-14).
 
 use crate::agreed::reports;
-use crate::fail_safe::plan;
 use mufasa_model::input::cycle::{
-    CrossSection, Cycle, DetectionList, Ego, Profile, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Profile, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::report::Rule;
 use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::differential::{agree, near_threshold, runner};
-use mufasa_props::strategy::base::{self, Frame, seconds};
+use mufasa_props::strategy::base::{self, Frame};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{map_validation, roads};
 use proptest::strategy::Strategy;
@@ -44,22 +43,10 @@ fn positions() {
         .assert_aimed(&["ii", "no_obstacle_check"]);
 }
 
-/// A straight plan, of which the second point is about as far as the CAV can drive by then.
 pub fn runs_ahead(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let frame = base::frame(draw);
     let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);
-    let Ego { speed, length, .. } = cycle.ego;
-    let late_ns = draw.pick(&[60_000_000, -30_000_000, 30_000_000, 0]);
-    let parameters = &mut cycle.parameters;
-    parameters.max_age_ns = parameters.max_age_ns.max(60_000_000);
-    // So near that a step leads there.
-    parameters.start_tolerance = draw.pick(&[0.5, 1.0, 2.0]);
-    let after_ns = draw.odd_ns(50_000_000) - late_ns;
-    let t = seconds(after_ns);
-    let gained = if after_ns < 0 { 0.0 } else { parameters.a_max * t * t / 2.0 };
-    let far = draw.near(parameters.start_tolerance + speed * t.abs() + gained).min(0.99 * length);
-    let way = [(-late_ns, 0.0), (after_ns, far), (after_ns + 100_000_000, far + 0.1)];
-    cycle.trajectory = Some(plan(&cycle, &way.map(|(after_ns, f)| (after_ns, [f, 0.0]))));
+    map_validation::positions(draw, frame, &mut cycle);
     cycle
 }
 

@@ -60,25 +60,8 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
 }
 
 /// On the inner side of a bend that the CAV follows: straight on it would meet the CAV, and along the route
-/// it is beside it, or just is not.
+/// it is beside it, or just is not. It may be wider than it is long.
 pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
-    bend(draw, cycle, age_ns, |lane, at, length, w| lane.width(at, [length; 2], w))
-}
-
-/// The same, also of objects that are wider than they are long.
-pub fn wide_in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
-    bend(draw, cycle, age_ns, |lane, at, length, w| {
-        // Each time the width is exact to a tenth of what it was.
-        (0..16).fold(0.0, |width: f64, _| lane.width(at, [length, length.max(width)], w))
-    })
-}
-
-fn bend(
-    draw: &mut Draw<'_>,
-    cycle: &mut Cycle,
-    age_ns: i64,
-    width: fn(&Lane<'_>, Frame, f64, (f64, f64)) -> f64,
-) -> Aimed {
     let road = shape::frame(cycle);
     let radius = draw.pick(&[55.0, 60.0, 75.0, 52.0]);
     let side = draw.pick(&[1.0, -1.0]);
@@ -109,7 +92,9 @@ fn bend(
     let velocity = draw.pick(&[6.0, 9.0, 12.0]);
     let w = (-velocity * now.cos, -velocity * now.sin);
     let length = draw.pick(&[2.0, 4.5]);
-    let width = width(&Lane::of(cycle), now, length, w);
+    let lane = Lane::of(cycle);
+    // Each time the width is exact to a tenth of what it was.
+    let width = (0..16).fold(0.0, |width: f64, _| lane.width(now, [length, length.max(width)], w));
     let width = draw.near(width).clamp(0.3, 5.0);
     let age = seconds(age_ns);
     let frame = Frame { x: now.x - age * w.0, y: now.y - age * w.1, ..now };

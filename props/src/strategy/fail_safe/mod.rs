@@ -80,13 +80,6 @@ fn scene(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle
 }
 
-/// Beside a path in a bend an object that may be wider than it is long.
-pub fn wide_in_a_bend(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    let mut cycle = scene(draw, profile);
-    decide(draw, &mut cycle, ("wide in a bend", lane::wide_in_a_bend));
-    cycle
-}
-
 /// Puts one object where H-14 decides, by one of the `AIMS` or another.
 pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, (name, find): (&str, Aimer)) {
     // No other stage looks at it.
