@@ -7,6 +7,7 @@ pub mod steps;
 
 use crate::cycle::order::{Turn, decide, schedule};
 use crate::cycle::steps::looks_along;
+use crate::hardened::detection_history::explained::Explaining;
 use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::places::{dilated_at_places, places_of};
@@ -172,7 +173,10 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
                 }
                 seen => self.iv(seen, self.aside(), scratch),
             },
-            Stage::V => self.v(self.aside()),
+            Stage::V => {
+                let seen = self.look_back(scratch);
+                self.v(seen, self.aside(), scratch)
+            }
         };
         outcome(found)
     }
@@ -270,8 +274,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// H-14, after `look_back`.
     fn fail_safe(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Option<Witness> {
-        let examined = self.cycle.profile.has(HardenedRule::H14)
-            && self.cycle.configuration != Configuration::Local;
+        let examined = self.examines_motions();
         let rule = FailSafe {
             cycle: self.cycle,
             trajectory: self.current.trajectory.filter(|_| examined)?,
@@ -284,13 +287,37 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         rule.failure(scratch)
     }
 
-    fn v(&self, aside: f64) -> Found {
+    /// H-14.16
+    fn examines_motions(&self) -> bool {
+        let Cycle { profile, configuration, .. } = *self.cycle;
+        profile.has(HardenedRule::H14) && configuration != Configuration::Local
+    }
+
+    /// The tracks that explain detections, where H-14 examined both (H-06.7).
+    fn explaining<'s>(
+        &'s self,
+        seen: Seen,
+        scratch: &'s mut Scratch<'_>,
+    ) -> Option<Explaining<'s>> {
+        let is_examined = self.examines_motions() && self.cycle.profile.runs(Stage::Iv);
+        match seen {
+            Seen::Open | Seen::Paired if is_examined => {
+                Some(Explaining::new(&self.history, self.current.tracks?, scratch))
+            }
+            // Where stage iv ran, it has failed.
+            Seen::Unclear(_) | Seen::Open | Seen::Paired => None,
+        }
+    }
+
+    /// After `look_back`, which says what was seen.
+    fn v(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Found {
         let (cycle, trajectory) = (self.cycle, self.current.trajectory()?);
         let grid = self.current.grid.ok_or(Input::Grid)?;
         let [h04, h06] = [HardenedRule::H04, HardenedRule::H06].map(|rule| cycle.profile.has(rule));
         let places = if h04 { Some(places_of(cycle, trajectory, aside)) } else { None };
         Ok(if h06 {
-            closed_cells(cycle, grid, (trajectory, places.as_ref()), self.current.detections)
+            let detected = (self.current.detections, self.explaining(seen, scratch));
+            closed_cells(cycle, grid, (trajectory, places.as_ref()), detected)
         } else {
             let found = trajectory_with_grid_map(cycle, trajectory, grid);
             found.or_else(|| dilated_at_places(grid, places.as_ref()?))
@@ -349,7 +376,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
                 Stage::Ii => valid.ii(aside),
                 Stage::Iii => valid.iii(),
                 Stage::Iv => valid.iv(seen, aside, scratch),
-                Stage::V => valid.v(aside),
+                Stage::V => valid.v(seen, aside, scratch),
             }),
         };
         if let Some(slot) = slots.next() {

@@ -102,6 +102,28 @@ fn detections_cover_and_miss_cells_that_the_rectangle_touches() {
     }
 }
 
+/// What is drawn beside stage iv: a detection that drives covers the occupied cell at the time of the grid and not
+/// where it was detected, or the other way round; in each configuration.
+#[test]
+fn detections_cover_where_they_are_at_the_time_of_the_grid() {
+    let mut seen = BTreeMap::new();
+    let mut runner = runner();
+    for _ in 0..4000 {
+        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
+        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
+        let mut at_once = cycle.clone();
+        for (grid, list) in at_once.grid.iter_mut().zip(&cycle.detections) {
+            grid.stamp_ns = list.stamp_ns;
+        }
+        if collides(&exact(&cycle)) != collides(&exact(&at_once)) {
+            let kind = (format!("{:?}", cycle.configuration), collides(&exact(&cycle)));
+            *seen.entry(kind).or_insert(0_u64) += 1;
+        }
+    }
+    println!("(configuration, collides): {seen:?}");
+    assert!(seen.len() == 6 && seen.values().all(|count| *count >= 5), "{seen:?}");
+}
+
 /// The same with longer and wider detections.
 fn grown(cycle: &Cycle, by: f64) -> Cycle {
     let mut cycle = cycle.clone();

@@ -1,7 +1,7 @@
-//! Which current detections confirmed tracks explain.
+//! Which current detections confirmed tracks explain, and how these move.
 
 use crate::hardened::detection_history::DetectionHistory;
-use crate::input::cycle::TrackList;
+use crate::input::cycle::{Track, TrackList};
 use crate::input::scratch::{Column, Row, Scratch};
 
 /// The current detections that confirmed tracks of a current list explain (SEEN-13).
@@ -43,5 +43,31 @@ impl Explained {
         let track = usize::from(columns.get(detection)?.explained_by);
         let item = rows.get(track).filter(|_| track < self.tracks)?.confirmed_by()?;
         (usize::from(item) == detection).then_some(track)
+    }
+}
+
+/// The tracks that explain detections.
+#[derive(Clone, Copy)]
+pub(crate) struct Explaining<'s> {
+    explained: Explained,
+    tracks: &'s [Track],
+    rows: &'s [Row],
+    columns: &'s [Column],
+}
+
+impl<'s> Explaining<'s> {
+    pub(crate) fn new(
+        history: &DetectionHistory<'_, '_>,
+        list: &'s TrackList<'_>,
+        scratch: &'s mut Scratch<'_>,
+    ) -> Self {
+        let explained = Explained::new(history, Some(list), scratch);
+        Self { explained, tracks: list.items, rows: scratch.rows, columns: scratch.columns }
+    }
+
+    /// The velocity of the track that explains a detection, m/s.
+    pub(crate) fn velocity(&self, detection: usize) -> Option<[f64; 2]> {
+        let track = self.tracks.get(self.explained.by(detection, self.rows, self.columns)?)?;
+        Some([track.vx, track.vy])
     }
 }

@@ -1,10 +1,12 @@
 //! Which cells a current detection covers (H-06 of `spec/hardened/H-06.md`).
 
-use crate::input::cycle::{Detection, Grid};
+use crate::hardened::detection_history::explained::Explaining;
+use crate::input::cycle::{Detection, DetectionList, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::float;
 use crate::numbers::rectangle::{Rectangle, certainly_touch};
 use crate::numbers::rounding::Real;
+use crate::numbers::time::elapsed_ns;
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::llcc::vector;
 
@@ -12,15 +14,32 @@ use crate::stages::llcc::vector;
 pub(super) struct Covered<'c, 'a> {
     pub(super) grid: &'c Grid<'a>,
     pub(super) items: &'c [Detection],
+    /// How they move, where H-14 examines that (H-06.7).
+    explaining: Option<Explaining<'c>>,
+    /// From their stamp to that of the grid, s.
+    since: Real,
 }
 
-impl Covered<'_, '_> {
+impl<'c, 'a> Covered<'c, 'a> {
+    pub(super) fn new(
+        grid: &'c Grid<'a>,
+        list: Option<&'c DetectionList<'a>>,
+        explaining: Option<Explaining<'c>>,
+    ) -> Self {
+        let items = list.map_or(&[][..], |list| list.items);
+        let stamp_ns = list.map_or(grid.stamp_ns, |list| list.stamp_ns);
+        let since = Real::seconds(elapsed_ns(stamp_ns, grid.stamp_ns));
+        Self { grid, items, explaining, since }
+    }
+
     /// Whether a cell certainly shares a point with some detection, grown (H-06.3). `latest`: which
     /// one covered a cell last; it often covers the next one, too.
     pub(super) fn has(&self, i: i64, k: i64, latest: &mut usize) -> bool {
         let (plain, square) = (plain_square(self.grid, i, k), || square(self.grid, i, k));
-        let covers =
-            |at: usize| self.items.get(at).is_some_and(|it| certainly_covers(it, &plain, square));
+        let covers = |at: usize| {
+            let grown = self.items.get(at).map(|it| self.moving(at, grown(it)));
+            grown.is_some_and(|it| certainly_covers(&it, self.since, &plain, square))
+        };
         if covers(*latest) {
             return true;
         }
@@ -28,22 +47,29 @@ impl Covered<'_, '_> {
         *latest = found.unwrap_or(*latest);
         found.is_some()
     }
+
+    /// With the velocity of the track that explains it, if one does.
+    fn moving(&self, detection: usize, it: MovingRectangle) -> MovingRectangle {
+        let velocity = self.explaining.and_then(|tracks| tracks.velocity(detection));
+        velocity.map_or(it, |velocity| MovingRectangle { velocity, ..it })
+    }
 }
 
-/// Whether the cell certainly shares a point with the detection's rectangle, grown. Most detections
-/// are far off, and what is detected fills its cells: plain doubles tell both.
+/// Whether the cell certainly shares a point with the detection's rectangle, grown and moved on by that
+/// time. Most detections are far off, and what is detected fills its cells: plain doubles tell both.
 fn certainly_covers(
-    detection: &Detection,
+    grown: &MovingRectangle,
+    since: Real,
     plain: &MovingRectangle,
     square: impl FnOnce() -> Rectangle,
 ) -> bool {
-    let grown = grown(detection);
-    if plain.certainly_far(&grown, plain.reach() + grown.reach()) {
+    let moved = MovingRectangle { centre: grown.after(since.value()), ..*grown };
+    if plain.certainly_far(&moved, plain.reach() + moved.reach()) {
         return false;
     }
-    grown.certainly_contains(plain.centre)
-        || !plain.certainly_apart(&grown)
-            && certainly_touch(&grown.displaced(vector([0.0; 2])), &square())
+    moved.certainly_contains(plain.centre)
+        || !plain.certainly_apart(&moved)
+            && certainly_touch(&grown.displaced(vector(grown.velocity).times(since)), &square())
 }
 
 /// The detection's rectangle with half length and half width greater by 1/4 m, or by a rounding less.

@@ -1,10 +1,10 @@
 //! Occupied cells that the CAV's rectangle touches, or just does not, while a disk reaches them, and
 //! that a detection covers, or just does not (H-06 of `spec/hardened/H-06.md`).
 
-use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, Track, TrackList};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
-use super::super::base::Frame;
+use super::super::base::{Frame, seconds};
 use super::super::draw::Draw;
 use super::super::{end, track_validation};
 use super::{Plan, lay, mark, plan};
@@ -45,6 +45,40 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     };
     cycle.grid = Some(grid);
     run_iv_or_not(draw, cycle, detection);
+    if draw.one_in(3) {
+        drive(draw, cycle, road);
+    }
+}
+
+/// What was put beside the cell drives along the road, as its track says and the CAV saw: it is there at the time of
+/// the grid (H-06.7). At times one list alone shows it, its track is another one's, too, or there is none.
+fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
+    let detected = cycle.detections.as_ref().map(|list| list.items.clone());
+    let (Some([item]), Some(grid)) = (detected.as_deref(), &mut cycle.grid) else { return };
+    let [older, newer] = [0, draw.odd_ns(40_000_000)].map(|ago_ns| cycle.now_ns - ago_ns);
+    let (t_d, t_g) = if draw.one_in(3) { (older, newer) } else { (newer, older) };
+    grid.stamp_ns = t_g;
+    let speed = draw.pick(&[8.0, -8.0, 20.0, 3.0]);
+    // What is long drives along its direction.
+    let along = if item.length > 1.0 { (item.cos, item.sin) } else { (road.cos, road.sin) };
+    let (vx, vy) = (speed * along.0, speed * along.1);
+    let at = |t_ns: i64| {
+        let t = seconds(t_ns - t_g);
+        Detection { x: item.x + vx * t, y: item.y + vy * t, ..*item }
+    };
+    let list = |stamp_ns: i64| DetectionList { stamp_ns, items: vec![at(stamp_ns)] };
+    let shown = draw.pick(&[2, 2, 2, 1]);
+    let lists = [300_000_000, 500_000_000].into_iter().take(shown);
+    cycle.detection_history = lists.map(|age_ns| list(t_d - age_ns)).collect();
+    cycle.detections = Some(list(t_d));
+    let Detection { x, y, cos, sin, length, width } = at(t_d);
+    let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
+    let items = match draw.below(8) {
+        0 => Vec::new(),
+        1 => vec![track, Track { id: 8, ..track }],
+        _ => vec![track],
+    };
+    cycle.tracks = Some(TrackList { stamp_ns: t_d, items });
 }
 
 /// A detection on a side of the cell, about 1/4 m away from it.
