@@ -39,19 +39,21 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         let (i, k) = draw.pick(&[(1, 0), (-1, 0), (0, 1), (0, -1), (2, 1), (-1, 2)]);
         mark(&mut grid.occupied, &plan, (column + i, row + k));
     }
-    let detection = match draw.below(2) {
-        0 => track_validation::detection(road, (-20.0, 30.0)),
-        _ => behind_cell(draw, &plan, &grid, &side.opposite()),
+    let drives = draw.one_in(3);
+    let detection = if drives || draw.one_in(2) {
+        behind_cell(draw, &plan, &grid, &side.opposite())
+    } else {
+        track_validation::detection(road, (-20.0, 30.0))
     };
     cycle.grid = Some(grid);
     run_iv_or_not(draw, cycle, detection);
-    if draw.one_in(3) {
+    if drives {
         drive(draw, cycle, road);
     }
 }
 
-/// What was put beside the cell drives along the road, as its track says and the CAV saw: it is there at the time of
-/// the grid (H-06.7). At times one list alone shows it, its track is another one's, too, or there is none.
+/// What was put beside the cell drives along the road or away from the CAV, as its track says and the CAV saw: it is
+/// there at the time of the grid (H-06.7). At times one list alone shows it, its track is another one's, too, or there is none.
 fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let detected = cycle.detections.as_ref().map(|list| list.items.clone());
     let (Some([item]), Some(grid)) = (detected.as_deref(), &mut cycle.grid) else { return };
@@ -59,8 +61,13 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let (t_d, t_g) = if draw.one_in(3) { (older, newer) } else { (newer, older) };
     grid.stamp_ns = t_g;
     let speed = draw.pick(&[8.0, -8.0, 20.0, 3.0]);
+    let away = unit((item.x - cycle.ego.x, item.y - cycle.ego.y));
     // What is long drives along its direction.
-    let along = if item.length > 1.0 { (item.cos, item.sin) } else { (road.cos, road.sin) };
+    let along = match draw.below(3) {
+        _ if item.length > 1.0 => (item.cos, item.sin),
+        0 => (road.cos, road.sin),
+        _ => away,
+    };
     let (vx, vy) = (speed * along.0, speed * along.1);
     let at = |t_ns: i64| {
         let t = seconds(t_ns - t_g);
@@ -75,7 +82,7 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
     let items = match draw.below(8) {
         0 => Vec::new(),
-        1 => vec![track, Track { id: 8, ..track }],
+        1 => vec![track.clone(), Track { id: 8, ..track }],
         _ => vec![track],
     };
     cycle.tracks = Some(TrackList { stamp_ns: t_d, items });
