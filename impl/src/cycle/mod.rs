@@ -298,11 +298,11 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         &'s self,
         seen: Seen,
         scratch: &'s mut Scratch<'_>,
-    ) -> Option<Explaining<'s>> {
+    ) -> Option<Explaining<'s, 'c, 'a>> {
         let is_examined = self.examines_motions() && self.cycle.profile.runs(Stage::Iv);
         match seen {
             Seen::Open | Seen::Paired if is_examined => {
-                Some(Explaining::new(&self.history, self.current.tracks?, scratch))
+                Some(Explaining::new(self.cycle, &self.history, self.current.tracks?, scratch))
             }
             // Where stage iv ran, it has failed.
             Seen::Unclear(_) | Seen::Open | Seen::Paired => None,
@@ -316,7 +316,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let [h04, h06] = [HardenedRule::H04, HardenedRule::H06].map(|rule| cycle.profile.has(rule));
         let places = if h04 { Some(places_of(cycle, trajectory, aside)) } else { None };
         Ok(if h06 {
-            let detected = (self.current.detections, self.explaining(seen, scratch));
+            let explaining = self.explaining(seen, scratch);
+            let detected = (self.current.detections, explaining.as_ref());
             closed_cells(cycle, grid, (trajectory, places.as_ref()), detected)
         } else {
             let found = trajectory_with_grid_map(cycle, trajectory, grid);

@@ -27,7 +27,7 @@ pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
     (trajectory, places): (&Trajectory<'_>, Option<&Places<'_, '_>>),
-    (detections, explaining): (Option<&DetectionList<'_>>, Option<Explaining<'_>>),
+    (detections, explaining): (Option<&DetectionList<'_>>, Option<&Explaining<'_, '_, '_>>),
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Braking);
     let covered = Covered::new(grid, detections, explaining);
@@ -68,7 +68,7 @@ impl Examined<'_, '_> {
                 search.frame = CellFrame::with_rectangle(cycle, grid);
             }
             let is_free = move |band: &Band| {
-                let mut latest = 0;
+                let mut latest = None;
                 band.is_free_but(cells, |i, k| {
                     asks_rectangle && self.covered.has(i, k, &mut latest)
                 })
@@ -97,7 +97,7 @@ impl Examined<'_, '_> {
     ) -> Option<Hit> {
         let covered = &self.covered;
         let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
-        let mut latest = 0;
+        let mut latest = None;
         grid.touched(disk, cells, |i, k| {
             // H-06.2
             if !asks_rectangle {

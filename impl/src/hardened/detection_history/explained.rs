@@ -1,7 +1,10 @@
 //! Which current detections confirmed tracks explain, and how these move.
 
-use crate::hardened::detection_history::DetectionHistory;
-use crate::input::cycle::{Track, TrackList};
+use crate::hardened::detection_history::lists::Lists;
+use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h14_fail_safe::motion::Motion;
+use crate::input::cycle::{Cycle, Track, TrackList};
+use crate::input::parameters::Parameters;
 use crate::input::scratch::{Column, Row, Scratch};
 
 /// The current detections that confirmed tracks of a current list explain (SEEN-13).
@@ -46,28 +49,42 @@ impl Explained {
     }
 }
 
-/// The tracks that explain detections.
-#[derive(Clone, Copy)]
-pub(crate) struct Explaining<'s> {
+/// Where the detections that tracks explain came from.
+pub(crate) struct Explaining<'m, 'c, 'a> {
     explained: Explained,
-    tracks: &'s [Track],
-    rows: &'s [Row],
-    columns: &'s [Column],
+    tracks: &'m [Track],
+    rows: &'m [Row],
+    columns: &'m [Column],
+    lists: Lists<'m, 'c, 'a>,
+    parameters: &'m Parameters,
 }
 
-impl<'s> Explaining<'s> {
+impl<'m, 'c, 'a> Explaining<'m, 'c, 'a> {
     pub(crate) fn new(
-        history: &DetectionHistory<'_, '_>,
-        list: &'s TrackList<'_>,
-        scratch: &'s mut Scratch<'_>,
+        cycle: &'m Cycle<'a>,
+        history: &'m DetectionHistory<'c, 'a>,
+        list: &'m TrackList<'_>,
+        scratch: &'m mut Scratch<'_>,
     ) -> Self {
         let explained = Explained::new(history, Some(list), scratch);
-        Self { explained, tracks: list.items, rows: scratch.rows, columns: scratch.columns }
+        let lists = Lists::new(cycle, history, Some(list));
+        let (rows, columns, parameters) = (&*scratch.rows, &*scratch.columns, &cycle.parameters);
+        Self { explained, tracks: list.items, rows, columns, lists, parameters }
     }
 
-    /// The velocity of the track that explains a detection, m/s.
-    pub(crate) fn velocity(&self, detection: usize) -> Option<[f64; 2]> {
-        let track = self.tracks.get(self.explained.by(detection, self.rows, self.columns)?)?;
-        Some([track.vx, track.vy])
+    /// A detection that a track explains, moving as it did since the list of the track (H-06.7).
+    pub(crate) fn moving(&self, detection: usize, now: &Motion) -> Option<Motion> {
+        let track = self.explained.by(detection, self.rows, self.columns)?;
+        let past = self.lists.past_of(self.rows.get(track)?)?;
+        let UsableList { age_ns, age, .. } = past.usable;
+        let origin = past.origin(self.tracks.get(track)?)?;
+        Some(now.coming_from(origin, age_ns, 1.0 / age))
+    }
+
+    /// None moves faster than that, m/s: it came from an item near the past of a track near it (SEEN-06, SEEN-09), and
+    /// no list is younger than 0.2 s.
+    pub(crate) const fn fastest(&self) -> f64 {
+        let &Parameters { v_object, theta_velocity, theta_track_max, .. } = self.parameters;
+        v_object + theta_velocity + 11.0 * theta_track_max
     }
 }

@@ -1,75 +1,81 @@
 //! Which cells a current detection covers (H-06 of `spec/hardened/H-06.md`).
 
 use crate::hardened::detection_history::explained::Explaining;
+use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::input::cycle::{Detection, DetectionList, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::float;
 use crate::numbers::rectangle::{Rectangle, certainly_touch};
 use crate::numbers::rounding::Real;
-use crate::numbers::time::elapsed_ns;
+use crate::numbers::time::{elapsed_ns, seconds};
 use crate::stages::llcc::sweep::MovingRectangle;
-use crate::stages::llcc::vector;
 
 /// Detections over a grid.
 pub(super) struct Covered<'c, 'a> {
     pub(super) grid: &'c Grid<'a>,
     pub(super) items: &'c [Detection],
-    /// How they move, where H-14 examines that (H-06.7).
-    explaining: Option<Explaining<'c>>,
-    /// From their stamp to that of the grid, s.
-    since: Real,
+    /// Where they came from, where H-14 examines that (H-06.7).
+    explaining: Option<&'c Explaining<'c, 'c, 'a>>,
+    /// From their stamp to that of the grid, ns.
+    since_ns: i64,
+    /// At most so far they moved in that time, m.
+    moved: f64,
 }
 
 impl<'c, 'a> Covered<'c, 'a> {
     pub(super) fn new(
         grid: &'c Grid<'a>,
         list: Option<&'c DetectionList<'a>>,
-        explaining: Option<Explaining<'c>>,
+        explaining: Option<&'c Explaining<'c, 'c, 'a>>,
     ) -> Self {
         let items = list.map_or(&[][..], |list| list.items);
         let stamp_ns = list.map_or(grid.stamp_ns, |list| list.stamp_ns);
-        let since = Real::seconds(elapsed_ns(stamp_ns, grid.stamp_ns));
-        Self { grid, items, explaining, since }
+        let since_ns = elapsed_ns(stamp_ns, grid.stamp_ns);
+        let explaining = explaining.filter(|_| since_ns != 0);
+        let moved = explaining.map_or(0.0, |it| it.fastest() * seconds(since_ns).abs());
+        Self { grid, items, explaining, since_ns, moved }
     }
 
     /// Whether a cell certainly shares a point with some detection, grown (H-06.3). `latest`: which
     /// one covered a cell last; it often covers the next one, too.
-    pub(super) fn has(&self, i: i64, k: i64, latest: &mut usize) -> bool {
+    pub(super) fn has(&self, i: i64, k: i64, latest: &mut Latest) -> bool {
         let (plain, square) = (plain_square(self.grid, i, k), || square(self.grid, i, k));
-        let covers = |at: usize| {
-            let grown = self.items.get(at).map(|it| self.moving(at, grown(it)));
-            grown.is_some_and(|it| certainly_covers(&it, self.since, &plain, square))
-        };
-        if covers(*latest) {
+        if latest.is_some_and(|it| certainly_covers(&it, &plain, square)) {
             return true;
         }
-        let found = (0..self.items.len()).find(|&at| covers(at));
-        *latest = found.unwrap_or(*latest);
+        let mut near =
+            self.items.iter().map(grown).enumerate().filter(|(_, it)| {
+                !plain.certainly_far(it, plain.reach() + it.reach() + self.moved)
+            });
+        let found = near.find_map(|(detection, grown)| {
+            let motion = self.motion(detection, grown);
+            certainly_covers(&motion, &plain, square).then_some(motion)
+        });
+        *latest = found.or(*latest);
         found.is_some()
     }
 
-    /// With the velocity of the track that explains it, if one does.
-    fn moving(&self, detection: usize, it: MovingRectangle) -> MovingRectangle {
-        let velocity = self.explaining.and_then(|tracks| tracks.velocity(detection));
-        velocity.map_or(it, |velocity| MovingRectangle { velocity, ..it })
+    /// How it moves until the grid is measured.
+    fn motion(&self, detection: usize, grown: MovingRectangle) -> Motion {
+        let stands = Motion::new(grown, self.since_ns);
+        self.explaining.and_then(|it| it.moving(detection, &stands)).unwrap_or(stands)
     }
 }
 
-/// Whether the cell certainly shares a point with the detection's rectangle, grown and moved on by that
-/// time. Most detections are far off, and what is detected fills its cells: plain doubles tell both.
+/// What covered a cell last.
+pub(super) type Latest = Option<Motion>;
+
+/// Whether the cell certainly shares a point with a detection, grown and moved on. What is detected fills its cells:
+/// plain doubles tell most.
 fn certainly_covers(
-    grown: &MovingRectangle,
-    since: Real,
+    motion: &Motion,
     plain: &MovingRectangle,
     square: impl FnOnce() -> Rectangle,
 ) -> bool {
-    let moved = MovingRectangle { centre: grown.after(since.value()), ..*grown };
-    if plain.certainly_far(&moved, plain.reach() + moved.reach()) {
-        return false;
-    }
+    let moved = MovingRectangle { centre: motion.now.after(motion.age), ..motion.now };
+    let by = || motion.velocity().times(Real::seconds(motion.age_ns));
     moved.certainly_contains(plain.centre)
-        || !plain.certainly_apart(&moved)
-            && certainly_touch(&grown.displaced(vector(grown.velocity).times(since)), &square())
+        || !plain.certainly_apart(&moved) && certainly_touch(&motion.now.displaced(by()), &square())
 }
 
 /// The detection's rectangle with half length and half width greater by 1/4 m, or by a rounding less.

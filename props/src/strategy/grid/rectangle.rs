@@ -53,7 +53,8 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 }
 
 /// What was put beside the cell drives along the road or away from the CAV, as its track says and the CAV saw: it is
-/// there at the time of the grid (H-06.7). At times one list alone shows it, its track is another one's, too, or there is none.
+/// there at the time of the grid (H-06.7). At times a list misses it, or shows another thing beside it, and its track is
+/// another one's, too, or there is none.
 fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let detected = cycle.detections.as_ref().map(|list| list.items.clone());
     let (Some([item]), Some(grid)) = (detected.as_deref(), &mut cycle.grid) else { return };
@@ -74,11 +75,23 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
         Detection { x: item.x + vx * t, y: item.y + vy * t, ..*item }
     };
     let list = |stamp_ns: i64| DetectionList { stamp_ns, items: vec![at(stamp_ns)] };
-    let shown = draw.pick(&[2, 2, 2, 1]);
-    let lists = [300_000_000, 500_000_000].into_iter().take(shown);
-    cycle.detection_history = lists.map(|age_ns| list(t_d - age_ns)).collect();
+    let ages: &[i64] = draw.pick(&[&[300, 500], &[300, 500, 800], &[300, 800], &[500]]);
+    cycle.detection_history = ages.iter().map(|ms| list(t_d - ms * 1_000_000)).collect();
+    let [missed, beside] = [0, 1].map(|_| draw.below(3 * ages.len()));
+    if let Some(list) = cycle.detection_history.get_mut(missed) {
+        list.items.clear();
+    }
+    if let Some(list) = cycle.detection_history.get_mut(beside) {
+        let (x, y) = road.at(0.7, 0.7);
+        let (x, y) = (x - road.x, y - road.y);
+        let items = list.items.iter().map(|it| Detection { x: it.x + x, y: it.y + y, ..*it });
+        list.items = items.chain(list.items.iter().copied()).collect();
+    }
     cycle.detections = Some(list(t_d));
     let Detection { x, y, cos, sin, length, width } = at(t_d);
+    // It is not believed how fast it is.
+    let stated = draw.pick(&[1.0, 0.9, 1.1]);
+    let (vx, vy) = (stated * vx, stated * vy);
     let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
     let items = match draw.below(8) {
         0 => Vec::new(),
