@@ -121,8 +121,8 @@ fn detections_cover_where_they_are_at_the_time_of_the_grid() {
         }
     }
     println!("(configuration, collides): {seen:?}");
-    // In `MotRemote` places beyond the points of the paper alone can be free so.
-    assert!(seen.values().filter(|count| **count >= 4).count() >= 5, "{seen:?}");
+    // In `MotRemote` it matters at places beyond the points of the paper alone.
+    assert!(seen.values().filter(|count| **count >= 10).count() >= 4, "{seen:?}");
 }
 
 /// The same with longer and wider detections.

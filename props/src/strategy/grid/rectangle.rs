@@ -72,7 +72,7 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let (vx, vy) = (speed * along.0, speed * along.1);
     let at = |t_ns: i64| {
         let t = seconds(t_ns - t_g);
-        Detection { x: item.x + vx * t, y: item.y + vy * t, ..*item }
+        Detection { x: item.x + vx * t, y: item.y + vy * t, ..item.clone() }
     };
     let list = |stamp_ns: i64| DetectionList { stamp_ns, items: vec![at(stamp_ns)] };
     let ages: &[i64] = draw.pick(&[&[300, 500], &[300, 500, 800], &[300, 800], &[500]]);
@@ -84,8 +84,9 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     if let Some(list) = cycle.detection_history.get_mut(beside) {
         let (x, y) = road.at(0.7, 0.7);
         let (x, y) = (x - road.x, y - road.y);
-        let items = list.items.iter().map(|it| Detection { x: it.x + x, y: it.y + y, ..*it });
-        list.items = items.chain(list.items.iter().copied()).collect();
+        let items =
+            list.items.iter().map(|it| Detection { x: it.x + x, y: it.y + y, ..it.clone() });
+        list.items = items.chain(list.items.iter().cloned()).collect();
     }
     cycle.detections = Some(list(t_d));
     let Detection { x, y, cos, sin, length, width } = at(t_d);
