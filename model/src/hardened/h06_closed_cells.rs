@@ -6,7 +6,7 @@
 
 use std::cell::LazyCell;
 
-use crate::hardened::detection_history::confirmed;
+use crate::hardened::detection_history::{Seen, Usable, confirmed, list_of, usable, velocity};
 use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Object, Point, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
@@ -59,23 +59,32 @@ fn square(grid: &Grid, cell: Cell) -> Rectangle {
     Rectangle::new(frame, &grid.resolution, &grid.resolution)
 }
 
-/// The current detections at t_G, each 1/4 m longer and wider on each side: moved by v (t_G - t_D) with the track that
-/// explains it where H-14 examines that (stage v does not run in `Local`).
+/// The current detections at t_G, each 1/4 m longer and wider on each side: at d + w (t_G - t_D) where a track explains d
+/// and H-14 examines motions (stage v does not run in `Local`).
 fn covering(scene: &Scene, grid: &Grid) -> Vec<Rectangle> {
     let Some(detections) = &scene.detections else { return Vec::new() };
     let t = Real::seconds(i128::from(grid.stamp_ns) - i128::from(detections.stamp_ns));
-    let is_believed = scene.profile.has(HardenedRule::H14) && scene.profile.runs(Stage::Iv);
-    let tracks = if is_believed { confirmed(scene) } else { Vec::new() };
+    let is_examined = scene.profile.has(HardenedRule::H14) && scene.profile.runs(Stage::Iv);
+    let tracks = if is_examined { confirmed(scene) } else { Vec::new() };
+    let lists = usable(scene);
     let quarter = Real::from_integer(1) / Real::from_integer(4);
     let grown = |half: &Real| scene.reads.lowered(&(half + &quarter));
-    let at_t_g = |(d, detection): (usize, &Object)| {
-        let mut covers = detection.rectangle().with_halves(grown);
-        if let Some((track, _)) = tracks.iter().find(|(_, seen)| seen.detection == Some(d)) {
-            covers.frame.origin = &covers.frame.origin + &track.velocity.scaled(&t);
+    let at_t_g = |(i, d): (usize, &Object)| {
+        let mut covers = d.rectangle().with_halves(grown);
+        let explains = tracks.iter().find(|(_, seen)| seen.detection == Some(i));
+        if let Some(w) = explains.and_then(|(_, seen)| motion(&lists, d, seen)) {
+            covers.frame.origin = &covers.frame.origin + &w.scaled(&t);
         }
         covers
     };
     detections.items.iter().enumerate().map(at_t_g).collect()
+}
+
+/// w = (d - d') / dt, d' being the own origin of the track that explains d in the list of that track, m/s.
+fn motion(lists: &[Usable], d: &Object, seen: &Seen) -> Option<Vector> {
+    let k = list_of(lists, seen)?;
+    let before = &lists[k].items[seen.own_origins[k]?];
+    Some(velocity(d, before, &lists[k].dt))
 }
 
 /// The cells of a kind whose closed square is at distance <= r from the centre, by row and column.

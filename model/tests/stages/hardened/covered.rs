@@ -1,4 +1,4 @@
-//! H-06.7: where a detection covers cells, in the three readings.
+//! H-06.7: where a detection covers cells, in the three readings, and which motion takes it there.
 
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::input::profile::HardenedRule;
@@ -15,7 +15,7 @@ const OLDER: [i64; 2] = [NOW, NOW - APART];
 
 /// The CAV stands after 10.75 m with its front at 12.75 m: it meets the occupied cell from 12 m to 13 m. A car ahead
 /// drives at 16 m/s, and others stand beside the road. The rear of the car is at `rear` when it is detected, and covers
-/// the cell up to 13.25 m. Its track is older, and 1/2 m behind.
+/// the cell up to 13.25 m. Its track is older, 1/2 m behind, and states 18 m/s.
 fn behind_a_car(configuration: Configuration, [t_d, t_g]: [i64; 2], rear: f64) -> Cycle {
     let mut cycle = base(Profile::HARDENED, configuration);
     (cycle.ego.speed, cycle.parameters.tau, cycle.parameters.a_max) = (8.0, 0.5, 4.0);
@@ -24,7 +24,7 @@ fn behind_a_car(configuration: Configuration, [t_d, t_g]: [i64; 2], rear: f64) -
         let items = vec![detection(x, 0.0), detection(15.0, 9.0), detection(15.0, -9.0)];
         DetectionList { stamp_ns, items }
     };
-    let car = Track { vx: 16.0, ..track(1, centre - 0.5, 0.0) };
+    let car = Track { vx: 18.0, ..track(1, centre - 0.5, 0.0) };
     let items = vec![track(2, 15.0, 9.0), car, track(3, 15.0, -9.0)];
     cycle.tracks = Some(TrackList { stamp_ns: t_d - APART / 2, items });
     cycle.detections = Some(seen(t_d, centre));
@@ -89,5 +89,63 @@ fn a_motion_that_is_not_confirmed_or_not_examined_moves_nothing() {
             covers(&cycle)
         };
         assert_eq!([at(LATER, 13.0), at(OLDER, 14.0)], [true, false], "{name}");
+    }
+}
+
+/// What a list shows of the car.
+#[derive(Clone, Copy, Debug)]
+enum Past {
+    /// The own origin of its track: the car has moved at so many m/s. Two items beside it are no origin: one before it in
+    /// the list and nearer to the car, one behind it and farther.
+    Own(f64),
+    /// The same, but another track has that origin, too.
+    Shared(f64),
+    /// Nothing.
+    Absent,
+}
+use Past::{Absent, Own, Shared};
+
+/// The car as three lists of the given ages, in ms, show it. `Shared` goes with 500 ms.
+fn as_seen(stamps: [i64; 2], rear: f64, lists: [(i32, Past); 3]) -> Cycle {
+    let mut cycle = behind_a_car(AllRemote, stamps, rear);
+    let centre = rear + 2.0;
+    let list = |(age, past): (i32, Past)| {
+        let at = |w: f64, y: f64| detection(centre - w * f64::from(age) / 1e3, y);
+        let mut items = match past {
+            Own(w) | Shared(w) => vec![at(15.0, 0.5), at(w, 0.0), at(21.0, 0.5)],
+            Absent => vec![],
+        };
+        items.insert(0, detection(15.0, 9.0));
+        DetectionList { stamp_ns: stamps[0] - i64::from(age) * 1_000_000, items }
+    };
+    cycle.detection_history = lists.map(list).to_vec();
+    if lists.iter().any(|(_, past)| matches!(past, Shared(_))) {
+        // 12 m beside the car when it is detected, and 500 ms before where the car was.
+        let tracks = cycle.tracks.as_mut().expect("set");
+        tracks.items.push(Track {
+            vx: 18.0,
+            vy: -24.0,
+            ..track(4, centre - 0.5, 24.0 * 0.03125 - 12.0)
+        });
+    }
+    cycle
+}
+
+/// H-06.7: neither the velocity of the track, 18 m/s, nor what another list or another item shows.
+#[test]
+fn the_motion_is_that_since_the_own_origin_in_the_list_of_the_track() {
+    let cases = [
+        ([(250, Own(16.0)), (500, Own(17.0)), (800, Own(19.0))], 17.0),
+        ([(250, Own(16.0)), (500, Absent), (800, Own(19.0))], 16.0),
+        ([(200, Own(16.0)), (500, Absent), (750, Own(19.0))], 19.0),
+        ([(300, Own(16.0)), (500, Absent), (700, Own(19.0))], 16.0),
+        ([(250, Own(16.0)), (500, Shared(17.0)), (800, Own(19.0))], 16.0),
+    ];
+    for (lists, w) in cases {
+        for (stamps, t) in [(LATER, 0.0625), (OLDER, -0.0625)] {
+            let least = 13.25 - w * t;
+            let at = |more: f64| covers(&as_seen(stamps, least + more, lists));
+            assert_eq!([at(-0.03), at(0.03)], [true, false], "{lists:?}, {stamps:?}");
+        }
     }
 }
