@@ -1,7 +1,7 @@
 """H-06: the disks of the CAV against the closed squares of the grid's cells."""
 import math
 
-from detection_history import S
+from detection_history import S, velocity
 from geometry import EPS
 from paper import disk_centres, disk_radius, points_within, s_b
 
@@ -48,14 +48,16 @@ def stage_v(cycle, detections, seen, places, a):
 
 def covering(cycle, seen):
     """The rectangles of the current detections when the grid was measured, in its frame; their half sizes are
-    greater by 1/4 m. How one moved until then is known where a confirmed track explains it."""
+    greater by 1/4 m. One that a track explains has moved until then as it did since the origin of that track."""
     ego, rectangles = cycle["ego"], []
-    track_of = {seen.detection[i]: seen.tracks[i] for i in seen.sure}
+    track_of = {seen.detection[i]: i for i in seen.sure}
     for d, item in enumerate(seen.detections):
         x, y = item["x"] - ego["x"], item["y"] - ego["y"]
         if d in track_of:
+            one = seen.seen_as(track_of[d])
+            w = velocity(seen.own_origin(track_of[d], one), item, one)
             t = (cycle["grid"]["stamp_ns"] - cycle["detections"]["stamp_ns"]) / S
-            x, y = x + track_of[d]["vx"] * t, y + track_of[d]["vy"] * t
+            x, y = x + w[0] * t, y + w[1] * t
         rectangles.append(rectangle(cycle["grid"], {**item, "x": x, "y": y}, 0.0, item, 0.25 - EPS))
     return rectangles
 
