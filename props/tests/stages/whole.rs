@@ -13,7 +13,7 @@ use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{Outcome, Reading, Report, Stage};
 use mufasa_props::differential::{agree, near_threshold};
 use mufasa_props::strategy::draw::Draw;
-use mufasa_props::strategy::whole;
+use mufasa_props::strategy::{grid, whole};
 use mufasa_records::names;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -38,8 +38,11 @@ fn any_set_of_rules() {
 }
 
 fn study(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    let mut cycle =
-        if draw.one_in(8) { runs_ahead(draw, profile) } else { whole::cycle(draw, profile) };
+    let mut cycle = match draw.below(8) {
+        0 => runs_ahead(draw, profile),
+        1 => grid::beside_iv(draw, profile),
+        _ => whole::cycle(draw, profile),
+    };
     for rule in HardenedRule::ALL {
         if draw.one_in(6) {
             cycle.profile = cycle.profile.without(rule);
