@@ -81,10 +81,16 @@ impl<'m, 'c, 'a> Explaining<'m, 'c, 'a> {
         Some(now.coming_from(origin, age_ns, 1.0 / age))
     }
 
-    /// None moves faster than that, m/s: it came from an item near the past of a track near it (SEEN-06, SEEN-09), and
-    /// no list is younger than 0.2 s.
-    pub(crate) const fn fastest(&self) -> f64 {
-        let &Parameters { v_object, theta_velocity, theta_track_max, .. } = self.parameters;
-        v_object + theta_velocity + 11.0 * theta_track_max
+    /// The velocity that the track states which explains a detection, m/s.
+    pub(crate) fn stated(&self, detection: usize) -> Option<[f64; 2]> {
+        let track = self.explained.by(detection, self.rows, self.columns)?;
+        self.tracks.get(track).map(|track| [track.vx, track.vy])
+    }
+
+    /// By less than that the velocity of a detection is another one, m/s: it came from an item near the past of a track
+    /// near it (SEEN-06, SEEN-09), and no list is younger than 0.2 s.
+    pub(crate) const fn misstated(&self) -> f64 {
+        let &Parameters { theta_velocity, theta_track_max, .. } = self.parameters;
+        theta_velocity + 11.0 * theta_track_max
     }
 }

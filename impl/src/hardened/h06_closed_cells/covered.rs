@@ -18,8 +18,8 @@ pub(super) struct Covered<'c, 'a> {
     explaining: Option<&'c Explaining<'c, 'c, 'a>>,
     /// From their stamp to that of the grid, ns.
     since_ns: i64,
-    /// At most so far they moved in that time, m.
-    moved: f64,
+    /// So far the velocity that a track states may lead astray in that time, m.
+    astray: f64,
 }
 
 impl<'c, 'a> Covered<'c, 'a> {
@@ -32,8 +32,8 @@ impl<'c, 'a> Covered<'c, 'a> {
         let stamp_ns = list.map_or(grid.stamp_ns, |list| list.stamp_ns);
         let since_ns = elapsed_ns(stamp_ns, grid.stamp_ns);
         let explaining = explaining.filter(|_| since_ns != 0);
-        let moved = explaining.map_or(0.0, |it| it.fastest() * seconds(since_ns).abs());
-        Self { grid, items, explaining, since_ns, moved }
+        let astray = explaining.map_or(0.0, |it| it.misstated() * seconds(since_ns).abs());
+        Self { grid, items, explaining, since_ns, astray }
     }
 
     /// Whether a cell certainly shares a point with some detection, grown (H-06.3). `latest`: which
@@ -43,16 +43,24 @@ impl<'c, 'a> Covered<'c, 'a> {
         if latest.is_some_and(|it| certainly_covers(&it, &plain, square)) {
             return true;
         }
-        let mut near =
-            self.items.iter().map(grown).enumerate().filter(|(_, it)| {
-                !plain.certainly_far(it, plain.reach() + it.reach() + self.moved)
-            });
+        let mut near = self.items.iter().map(grown).enumerate();
         let found = near.find_map(|(detection, grown)| {
+            if self.is_far(detection, &grown, &plain) {
+                return None;
+            }
             let motion = self.motion(detection, grown);
             certainly_covers(&motion, &plain, square).then_some(motion)
         });
         *latest = found.or(*latest);
         found.is_some()
+    }
+
+    /// Most are, and need not be looked for in a list.
+    fn is_far(&self, detection: usize, grown: &MovingRectangle, cell: &MovingRectangle) -> bool {
+        let stated = self.explaining.and_then(|it| Some((it.stated(detection)?, self.astray)));
+        let (velocity, astray) = stated.unwrap_or_default();
+        let moving = Motion::new(MovingRectangle { velocity, ..*grown }, self.since_ns);
+        cell.certainly_far(&moving.plainly(), cell.reach() + grown.reach() + astray)
     }
 
     /// How it moves until the grid is measured.
@@ -72,7 +80,7 @@ fn certainly_covers(
     plain: &MovingRectangle,
     square: impl FnOnce() -> Rectangle,
 ) -> bool {
-    let moved = MovingRectangle { centre: motion.now.after(motion.age), ..motion.now };
+    let moved = motion.plainly();
     let by = || motion.velocity().times(Real::seconds(motion.age_ns));
     moved.certainly_contains(plain.centre)
         || !plain.certainly_apart(&moved) && certainly_touch(&motion.now.displaced(by()), &square())

@@ -32,6 +32,11 @@ impl Motion {
         Self { now, from: Some((before, dt_ns)), ..*self }
     }
 
+    /// Where it is after its age, in plain doubles.
+    pub(crate) fn plainly(&self) -> MovingRectangle {
+        MovingRectangle { centre: self.now.after(self.age), ..self.now }
+    }
+
     /// Its velocity, m/s.
     pub(crate) fn velocity(&self) -> Vector {
         self.from.map_or(vector(self.now.velocity), |(before, dt_ns)| {
