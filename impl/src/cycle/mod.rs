@@ -174,7 +174,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
                 seen => self.iv(seen, self.aside(), scratch),
             },
             Stage::V => {
-                let seen = self.look_back(scratch);
+                let asks = self.asks_motions();
+                let seen = if asks { self.look_back(scratch) } else { Seen::Open };
                 self.v(seen, self.aside(), scratch)
             }
         };
@@ -293,20 +294,24 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         profile.has(HardenedRule::H14) && configuration != Configuration::Local
     }
 
-    /// The tracks that explain detections, where H-14 examined both (H-06.7).
+    /// Whether detections moved until the time of the grid, and H-14 examined how (H-06.7).
+    fn asks_motions(&self) -> bool {
+        let stamps = self.current.detections.zip(self.current.grid);
+        self.examines_motions()
+            && self.cycle.profile.runs(Stage::Iv)
+            && stamps.is_some_and(|(list, grid)| list.stamp_ns != grid.stamp_ns)
+    }
+
+    /// Where these detections came from.
     fn explaining<'s>(
         &'s self,
         seen: Seen,
         scratch: &'s mut Scratch<'_>,
     ) -> Option<Explaining<'s, 'c, 'a>> {
-        let is_examined = self.examines_motions() && self.cycle.profile.runs(Stage::Iv);
-        match seen {
-            Seen::Open | Seen::Paired if is_examined => {
-                Some(Explaining::new(self.cycle, &self.history, self.current.tracks?, scratch))
-            }
-            // Where stage iv ran, it has failed.
-            Seen::Unclear(_) | Seen::Open | Seen::Paired => None,
-        }
+        // Where stage iv ran, it has failed where that is unclear.
+        let asks = self.asks_motions() && !matches!(seen, Seen::Unclear(_));
+        let tracks = self.current.tracks.filter(|_| asks)?;
+        Some(Explaining::new(self.cycle, &self.history, tracks, scratch))
     }
 
     /// After `look_back`, which says what was seen.

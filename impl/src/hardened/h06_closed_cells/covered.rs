@@ -31,7 +31,6 @@ impl<'c, 'a> Covered<'c, 'a> {
         let items = list.map_or(&[][..], |list| list.items);
         let stamp_ns = list.map_or(grid.stamp_ns, |list| list.stamp_ns);
         let since_ns = elapsed_ns(stamp_ns, grid.stamp_ns);
-        let explaining = explaining.filter(|_| since_ns != 0);
         let astray = explaining.map_or(0.0, |it| it.misstated() * seconds(since_ns).abs());
         Self { grid, items, explaining, since_ns, astray }
     }
