@@ -3,6 +3,7 @@
 //! H-14.27.
 
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 use crate::agreed::failed_clearly;
 use mufasa_model::cycle::check;
@@ -52,77 +53,58 @@ fn beside_the_plan() {
 /// it or does not, within 1e-5 m; in each configuration, with stage iv and without.
 #[test]
 fn rectangles_touch_and_miss_cells_that_a_disk_reaches() {
-    const DRAWS: u64 = 4000;
-    let mut seen = BTreeMap::new();
-    let mut runner = runner();
-    for _ in 0..DRAWS {
-        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
-        let rectangle = only_rectangle(&cycle);
-        if collides(&exact(&only_disks(&cycle))) && near_threshold(&rectangle) {
-            let iv = &exact(&cycle).stages[3];
-            let ran_iv = matches!(iv, Outcome::Passed);
-            let touches = collides(&exact(&rectangle));
-            let kind = (format!("{:?}", cycle.configuration), ran_iv, touches);
-            *seen.entry(kind).or_insert(0_u64) += 1;
-        }
-    }
-    println!("(configuration, stage iv ran, rectangle touches): {seen:?} of {DRAWS}");
-    for configuration in ["AllRemote", "MotRemote", "PlanRemote"] {
-        for (ran_iv, touches) in [(true, true), (true, false), (false, true), (false, false)] {
-            let kind = (configuration.to_owned(), ran_iv, touches);
-            let count = seen.get(&kind).copied().unwrap_or(0);
-            assert!(count >= 10, "{kind:?}: only {count} of {DRAWS}");
-        }
-    }
+    let seen = counted("stage iv ran, rectangle touches", |cycle| {
+        let rectangle = only_rectangle(cycle);
+        let is_near = collides(&exact(&only_disks(cycle))) && near_threshold(&rectangle);
+        let ran_iv = || matches!(exact(cycle).stages[3], Outcome::Passed);
+        is_near.then(|| (ran_iv(), collides(&exact(&rectangle))))
+    });
+    assert!(seen.len() == 12 && seen.values().all(|count| *count >= 10), "{seen:?}");
 }
 
 /// What is drawn beside stage iv: a detection covers the occupied cell, or does not, and 1e-5 m more or less
 /// of it makes the difference; in each configuration.
 #[test]
 fn detections_cover_and_miss_cells_that_the_rectangle_touches() {
-    const DRAWS: u64 = 4000;
-    let mut seen = BTreeMap::new();
-    let mut runner = runner();
-    for _ in 0..DRAWS {
-        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
-        if !collides(&exact(&grown(&cycle, 2e-5))) && collides(&exact(&grown(&cycle, -2e-5))) {
-            let kind = (format!("{:?}", cycle.configuration), collides(&exact(&cycle)));
-            *seen.entry(kind).or_insert(0_u64) += 1;
-        }
-    }
-    println!("(configuration, collides): {seen:?} of {DRAWS}");
-    for configuration in ["AllRemote", "MotRemote", "PlanRemote"] {
-        for collides in [true, false] {
-            let kind = (configuration.to_owned(), collides);
-            let count = seen.get(&kind).copied().unwrap_or(0);
-            assert!(count >= 5, "{kind:?}: only {count} of {DRAWS}");
-        }
-    }
+    let seen = counted("collides", |cycle| {
+        let [more, less] = [2e-5, -2e-5].map(|by| collides(&exact(&grown(cycle, by))));
+        (!more && less).then(|| collides(&exact(cycle)))
+    });
+    assert!(seen.len() == 6 && seen.values().all(|count| *count >= 5), "{seen:?}");
 }
 
 /// What is drawn beside stage iv: a detection that drives covers the occupied cell at the time of the grid and not
 /// where it was detected, or the other way round.
 #[test]
 fn detections_cover_where_they_are_at_the_time_of_the_grid() {
+    let seen = counted("collides", |cycle| {
+        let mut at_once = cycle.clone();
+        for (grid, list) in at_once.grid.iter_mut().zip(&cycle.detections) {
+            grid.stamp_ns = list.stamp_ns;
+        }
+        let [moved, at_once] = [cycle, &at_once].map(|it| collides(&exact(it)));
+        (moved != at_once).then_some(moved)
+    });
+    // In `MotRemote` it matters at places beyond the points of the paper alone.
+    assert!(seen.values().filter(|count| **count >= 10).count() >= 4, "{seen:?}");
+}
+
+/// Of 4000 cases beside stage iv how many are of a kind, by configuration.
+fn counted<K: Ord + Debug>(
+    title: &str,
+    kind: impl Fn(&Cycle) -> Option<K>,
+) -> BTreeMap<(String, K), u64> {
     let mut seen = BTreeMap::new();
     let mut runner = runner();
     for _ in 0..4000 {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
         let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
-        let mut at_once = cycle.clone();
-        for (grid, list) in at_once.grid.iter_mut().zip(&cycle.detections) {
-            grid.stamp_ns = list.stamp_ns;
-        }
-        if collides(&exact(&cycle)) != collides(&exact(&at_once)) {
-            let kind = (format!("{:?}", cycle.configuration), collides(&exact(&cycle)));
-            *seen.entry(kind).or_insert(0_u64) += 1;
+        if let Some(kind) = kind(&cycle) {
+            *seen.entry((format!("{:?}", cycle.configuration), kind)).or_insert(0) += 1;
         }
     }
-    println!("(configuration, collides): {seen:?}");
-    // In `MotRemote` it matters at places beyond the points of the paper alone.
-    assert!(seen.values().filter(|count| **count >= 10).count() >= 4, "{seen:?}");
+    println!("(configuration, ({title})): {seen:?} of 4000");
+    seen
 }
 
 /// The same with longer and wider detections.
