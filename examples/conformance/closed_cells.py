@@ -1,7 +1,6 @@
 """H-06: the disks of the CAV against the closed squares of the grid's cells."""
 import math
 
-from detection_history import S, velocity
 from geometry import EPS
 from paper import disk_centres, disk_radius, points_within, s_b
 
@@ -16,11 +15,13 @@ def poses(cycle, places):
     yield from ((place.pose, True, True) for place in places)
 
 
-def stage_v(cycle, detections, seen, places, a):
+def stage_v(cycle, detections, places, a):
     """H-06: disks against the squares of cells; the unknown counts unless detections are current.
-    Where there is one, an occupied one has to meet the CAV's rectangle, too, and none that covers it;
-    in MotRemote at the places alone. There the CAV's half width is greater by a."""
+    Where there is one, an occupied one has to meet the CAV's rectangle, too, and none of theirs, whose
+    half sizes are greater by 1/4 m; in MotRemote at the places alone. There the CAV's half width is
+    greater by a."""
     ego, grid = cycle["ego"], cycle["grid"]
+    items = cycle["detections"]["items"] if detections else []
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
     bitmaps = [grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
@@ -30,12 +31,14 @@ def stage_v(cycle, detections, seen, places, a):
     cycle = {**cycle, "grid": {**grid, "x": grid["x"] - ego["x"], "y": grid["y"] - ego["y"]}}
     wide = {**cycle, "ego": {**ego, "width": ego["width"] + 2 * a}}
     offset = ego["center_offset"]
-    covers = covering(cycle, seen)
+    seen = [rectangle(cycle["grid"], {**item, "x": item["x"] - ego["x"], "y": item["y"] - ego["y"]},
+                      0.0, item, 0.25 - EPS)
+            for item in items]
     for pose, is_exact, is_place in poses(cycle, places):
         there = wide if is_place else cycle
         r = disk_radius(there) + EPS
-        if covers and is_exact:
-            if rectangle_meets_cell(there, rows, pose, offset, r, covers):
+        if items and is_exact:
+            if rectangle_meets_cell(there, rows, pose, offset, r, seen):
                 return False
             continue
         for u, v in disk_centres(cycle, pose, offset):
@@ -44,22 +47,6 @@ def stage_v(cycle, detections, seen, places, a):
             if meets_cell(grid, rows, u, v, r):
                 return False
     return True
-
-
-def covering(cycle, seen):
-    """The rectangles of the current detections when the grid was measured, in its frame; their half sizes are
-    greater by 1/4 m. One that a track explains has moved until then as it did since the origin of that track."""
-    ego, rectangles = cycle["ego"], []
-    track_of = {seen.detection[i]: i for i in seen.sure}
-    for d, item in enumerate(seen.detections):
-        x, y = item["x"] - ego["x"], item["y"] - ego["y"]
-        if d in track_of:
-            one = seen.seen_as(track_of[d])
-            w = velocity(seen.own_origin(track_of[d], one), item, one)
-            t = (cycle["grid"]["stamp_ns"] - cycle["detections"]["stamp_ns"]) / S
-            x, y = x + w[0] * t, y + w[1] * t
-        rectangles.append(rectangle(cycle["grid"], {**item, "x": x, "y": y}, 0.0, item, 0.25 - EPS))
-    return rectangles
 
 
 def meets_cell(grid, rows, u, v, r):
@@ -89,9 +76,9 @@ def rectangle(grid, pose, offset, box, more):
     return x * c + y * s, y * c - x * s, along, (box["length"] / 2 + more, box["width"] / 2 + more)
 
 
-def rectangle_meets_cell(cycle, rows, pose, offset, r, covers):
+def rectangle_meets_cell(cycle, rows, pose, offset, r, seen):
     """Whether the closed square of a marked cell may share a point with the CAV's rectangle and with
-    a disk (where a direction is longer than 1 a corner is outside of them), and with none of covers."""
+    a disk (where a direction is longer than 1 a corner is outside of them), and with none of seen."""
     disks = list(disk_centres(cycle, pose, offset))
     ego, grid, res = cycle["ego"], cycle["grid"], cycle["grid"]["resolution"]
     cav = u, v, along, half = rectangle(grid, pose, offset, ego, EPS)
@@ -106,7 +93,7 @@ def rectangle_meets_cell(cycle, rows, pose, offset, r, covers):
                     and any(math.hypot(max(abs(x - disk[0]) - res / 2, 0.0),
                                        max(abs(y - disk[1]) - res / 2, 0.0)) <= r
                             for disk in disks)):
-                if not any(square_meets(res / 2, x, y, detection) for detection in covers):
+                if not any(square_meets(res / 2, x, y, detection) for detection in seen):
                     return True
                 rows[k] &= ~(1 << i)  # It is left out at every place.
     return False

@@ -117,10 +117,6 @@ class Seen:
         return nearest_to_half_a_second(
             [one for one, own in zip(self.lists, self.own) if own[i] is not None])
 
-    def own_origin(self, i, one):
-        """The item that is the own origin of a track in a usable list that holds one."""
-        return one["items"][self.own[self.lists.index(one)][i]]
-
     def may_stand(self, detection, item):
         """Whether a detection may be what was at an item, and stands."""
         return distance(item, detection) <= self.parameters["theta_track_max"] + EPS

@@ -36,8 +36,7 @@ def failed_stage(cycle):
     unclear = configuration == "PlanRemote" and now["detections"] and seen.unclear
     if (tracks or seen.detections) and (unclear or not rule.meets_nobody(seen, tracks)):
         return "iv"
-    # Always, or H-10.
-    if now["grid"] and not stage_v(cycle, now["detections"], seen, rule.places, rule.a):
+    if now["grid"] and not stage_v(cycle, now["detections"], rule.places, rule.a):  # always, or H-10
         return "v"
     # What nothing has checked is no obstacle check (H-02).
     counts_iii = ran_iii and (configuration == "PlanRemote" or checked)

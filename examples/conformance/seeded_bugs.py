@@ -143,8 +143,6 @@ BUGS = [
              '[grid["occupied"]]', "H-06: unknown cells count as free"),
     hardened("covered-by-a-metre", "closed_cells.py", "0.25 - EPS", "1.0",
              "H-06: a detection leaves out what is within 1 m of it, in place of 1/4 m"),
-    hardened("covered-where-detected", "closed_cells.py", "        if d in track_of:", "        if False and d in track_of:",
-             "H-06: a detection leaves out what is beside where it was detected, not where it is at the time of the grid"),
     hardened("against-the-lane", "hardened_ii.py", "        if any(between(a, b, p)[0] < EPS",
              "        if False and any(between(a, b, p)[0] < EPS",
              "H-07: a heading against the lane is accepted"),

@@ -7,7 +7,6 @@ pub mod steps;
 
 use crate::cycle::order::{Turn, decide, schedule};
 use crate::cycle::steps::looks_along;
-use crate::hardened::detection_history::explained::Explaining;
 use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::places::{dilated_at_places, places_of};
@@ -173,11 +172,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
                 }
                 seen => self.iv(seen, self.aside(), scratch),
             },
-            Stage::V => {
-                let asks = self.asks_motions();
-                let seen = if asks { self.look_back(scratch) } else { Seen::Open };
-                self.v(seen, self.aside(), scratch)
-            }
+            Stage::V => self.v(self.aside()),
         };
         outcome(found)
     }
@@ -275,7 +270,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// H-14, after `look_back`.
     fn fail_safe(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Option<Witness> {
-        let examined = self.examines_motions();
+        let examined = self.cycle.profile.has(HardenedRule::H14)
+            && self.cycle.configuration != Configuration::Local;
         let rule = FailSafe {
             cycle: self.cycle,
             trajectory: self.current.trajectory.filter(|_| examined)?,
@@ -288,42 +284,13 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         rule.failure(scratch)
     }
 
-    /// H-14.16
-    fn examines_motions(&self) -> bool {
-        let Cycle { profile, configuration, .. } = *self.cycle;
-        profile.has(HardenedRule::H14) && configuration != Configuration::Local
-    }
-
-    /// Whether detections moved until the time of the grid, and H-14 examined how (H-06.7).
-    fn asks_motions(&self) -> bool {
-        let stamps = self.current.detections.zip(self.current.grid);
-        self.examines_motions()
-            && self.cycle.profile.runs(Stage::Iv)
-            && stamps.is_some_and(|(list, grid)| list.stamp_ns != grid.stamp_ns)
-    }
-
-    /// Where these detections came from.
-    fn explaining<'s>(
-        &'s self,
-        seen: Seen,
-        scratch: &'s mut Scratch<'_>,
-    ) -> Option<Explaining<'s, 'c, 'a>> {
-        // Where stage iv ran, it has failed where that is unclear.
-        let asks = self.asks_motions() && !matches!(seen, Seen::Unclear(_));
-        let tracks = self.current.tracks.filter(|_| asks)?;
-        Some(Explaining::new(self.cycle, &self.history, tracks, scratch))
-    }
-
-    /// After `look_back`, which says what was seen.
-    fn v(&self, seen: Seen, aside: f64, scratch: &mut Scratch<'_>) -> Found {
+    fn v(&self, aside: f64) -> Found {
         let (cycle, trajectory) = (self.cycle, self.current.trajectory()?);
         let grid = self.current.grid.ok_or(Input::Grid)?;
         let [h04, h06] = [HardenedRule::H04, HardenedRule::H06].map(|rule| cycle.profile.has(rule));
         let places = if h04 { Some(places_of(cycle, trajectory, aside)) } else { None };
         Ok(if h06 {
-            let explaining = self.explaining(seen, scratch);
-            let detected = (self.current.detections, explaining.as_ref());
-            closed_cells(cycle, grid, (trajectory, places.as_ref()), detected)
+            closed_cells(cycle, grid, (trajectory, places.as_ref()), self.current.detections)
         } else {
             let found = trajectory_with_grid_map(cycle, trajectory, grid);
             found.or_else(|| dilated_at_places(grid, places.as_ref()?))
@@ -382,7 +349,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
                 Stage::Ii => valid.ii(aside),
                 Stage::Iii => valid.iii(),
                 Stage::Iv => valid.iv(seen, aside, scratch),
-                Stage::V => valid.v(seen, aside, scratch),
+                Stage::V => valid.v(aside),
             }),
         };
         if let Some(slot) = slots.next() {

@@ -3,7 +3,6 @@
 
 mod covered;
 
-use crate::hardened::detection_history::explained::Explaining;
 use crate::hardened::h04_gap::places::Places;
 use crate::hardened::h06_closed_cells::covered::{Covered, plain_square, square};
 use crate::input::cycle::{Cycle, DetectionList, Grid, Trajectory, TrajectoryPoint};
@@ -22,15 +21,16 @@ use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
 /// grid. At the points that the paper examines, then at the places of H-04; `detections`: the current ones,
-/// with which the last two do not count, and no cell that one of them covers; `explaining`: where H-14 runs.
+/// with which the last two do not count, and no cell that one of them covers.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
     (trajectory, places): (&Trajectory<'_>, Option<&Places<'_, '_>>),
-    (detections, explaining): (Option<&DetectionList<'_>>, Option<&Explaining<'_, '_, '_>>),
+    detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Braking);
-    let covered = Covered::new(grid, detections, explaining);
+    let items = detections.map_or(&[][..], |list| list.items);
+    let covered = Covered { grid, items };
     let examined = Examined { cycle, points, places, covered };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
     let found = examined.touched(Rule::Occupied, &occupied);
@@ -68,7 +68,7 @@ impl Examined<'_, '_> {
                 search.frame = CellFrame::with_rectangle(cycle, grid);
             }
             let is_free = move |band: &Band| {
-                let mut latest = None;
+                let mut latest = 0;
                 band.is_free_but(cells, |i, k| {
                     asks_rectangle && self.covered.has(i, k, &mut latest)
                 })
@@ -97,7 +97,7 @@ impl Examined<'_, '_> {
     ) -> Option<Hit> {
         let covered = &self.covered;
         let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
-        let mut latest = None;
+        let mut latest = 0;
         grid.touched(disk, cells, |i, k| {
             // H-06.2
             if !asks_rectangle {

@@ -80,31 +80,6 @@ fn a_cell_behind_a_car_collides_from_a_quarter_metre_on() {
     }
 }
 
-/// Something small drives past the cell beside the road, which a CAV of 2 m touches. The grid is half a second older
-/// than the detections. Its track states another speed, with which it would not have been near the cell (H-06.7).
-#[test]
-fn a_detection_covers_where_lists_show_it_and_not_where_its_track_does() {
-    for place in PLACES {
-        let found = |[speed, stated, ahead]: [f64; 3]| {
-            let mut scene = occupied(PlanRemote, place, &[BESIDE]);
-            scene.ego.width = 2.0;
-            scene.parameters.max_age_ns = 1_000_000_000;
-            scene.change = |cycle| cycle.grid.iter_mut().for_each(|it| it.stamp_ns -= 500_000_000);
-            let [x, y] = [place[0] + ahead, place[1] + 1.5];
-            let (length, width) = (0.125, 0.125);
-            let at = |ago: f64| Detection { length, width, ..detection(x - speed * ago, y) };
-            scene.detections = Some(vec![at(0.0)]);
-            scene.history = vec![(300_000_000, vec![at(0.3)]), (500_000_000, vec![at(0.5)])];
-            scene.tracks =
-                Some(vec![Track { vx: stated, length, width, ..track(2, x + 0.875, y) }]);
-            hit(&scene)
-        };
-        let slow = [2.5, 6.0, 8.75].map(|ahead| found([7.0, 12.5, ahead]));
-        assert_eq!(slow, [HIT_BESIDE, None, HIT_BESIDE], "{place:?}");
-        assert_eq!([2.5, 32.5].map(|ahead| found([60.0, 60.0, ahead])), [HIT_BESIDE, None]);
-    }
-}
-
 /// The cell beside the road, which a CAV of 2 m touches, and something that stands a little farther aside.
 fn beside_the_cell(configuration: Configuration, place: [f64; 2], standing: Detection) -> Scene {
     let mut scene = occupied(configuration, place, &[BESIDE]);

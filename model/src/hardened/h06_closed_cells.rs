@@ -1,19 +1,15 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
 //! grid counts as occupied, unless detections are current. With at least one current detection the CAV's
-//! rectangle has to reach the cell, too, and no detection may cover it where it is when the grid is: those
-//! iv and H-14 examine. In `MotRemote` this holds at the places of H-14 alone: at its points the paper
-//! examines the grid beside every other stage.
+//! rectangle has to reach the cell, too, and no detection may cover it: those iv and H-14 examine. In
+//! `MotRemote` this holds at the places of H-14 alone: at its points the paper examines the grid beside
+//! every other stage.
 
-use std::cell::LazyCell;
-
-use crate::hardened::detection_history::{Seen, Usable, confirmed, list_of, usable, velocity};
-use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Object, Point, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, may_share_a_point, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
-use crate::report::{Rule, Stage};
+use crate::report::Rule;
 use crate::services::configuration::Configuration;
 use crate::stages::v_grid_map::Disk;
 
@@ -29,7 +25,6 @@ pub fn rules<'a>(
     let is_detected = scene.detections.as_ref().is_some_and(|list| !list.items.is_empty());
     let in_paper = scene.configuration == Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
-        let covering = LazyCell::new(|| covering(scene, grid));
         Box::new(move |disk| {
             touched_cells(scene, grid, disk, is_kind).find(|hit| {
                 let is_of_paper = disk.point < trajectory.len();
@@ -37,7 +32,7 @@ pub fn rules<'a>(
                 let square = hit.cell.map(|cell| square(grid, cell));
                 let collides = |square: Rectangle| {
                     may_share_a_point(&scene.reads, disk.cav, &square)
-                        && !covering.iter().any(|it| share_a_point(it, &square))
+                        && !is_covered(scene, &square)
                 };
                 !is_exact || square.is_some_and(collides)
             })
@@ -59,32 +54,12 @@ fn square(grid: &Grid, cell: Cell) -> Rectangle {
     Rectangle::new(frame, &grid.resolution, &grid.resolution)
 }
 
-/// The current detections at t_G, each 1/4 m longer and wider on each side: at d + w (t_G - t_D) where a track explains d
-/// and H-14 examines motions (stage v does not run in `Local`).
-fn covering(scene: &Scene, grid: &Grid) -> Vec<Rectangle> {
-    let Some(detections) = &scene.detections else { return Vec::new() };
-    let t = Real::seconds(i128::from(grid.stamp_ns) - i128::from(detections.stamp_ns));
-    let is_examined = scene.profile.has(HardenedRule::H14) && scene.profile.runs(Stage::Iv);
-    let tracks = if is_examined { confirmed(scene) } else { Vec::new() };
-    let lists = usable(scene);
+/// A current detection, 1/4 m longer and wider on each side, shares a point with the square.
+fn is_covered(scene: &Scene, square: &Rectangle) -> bool {
     let quarter = Real::from_integer(1) / Real::from_integer(4);
     let grown = |half: &Real| scene.reads.lowered(&(half + &quarter));
-    let at_t_g = |(i, d): (usize, &Object)| {
-        let mut covers = d.rectangle().with_halves(grown);
-        let explains = tracks.iter().find(|(_, seen)| seen.detection == Some(i));
-        if let Some(w) = explains.and_then(|(_, seen)| motion(&lists, d, seen)) {
-            covers.frame.origin = &covers.frame.origin + &w.scaled(&t);
-        }
-        covers
-    };
-    detections.items.iter().enumerate().map(at_t_g).collect()
-}
-
-/// w = (d - d') / dt, d' being the own origin of the track that explains d in the list of that track, m/s.
-fn motion(lists: &[Usable], d: &Object, seen: &Seen) -> Option<Vector> {
-    let k = list_of(lists, seen)?;
-    let before = &lists[k].items[seen.own_origins[k]?];
-    Some(velocity(d, before, &lists[k].dt))
+    let covers = |it: &Object| share_a_point(&it.rectangle().with_halves(grown), square);
+    scene.detections.iter().flat_map(|list| &list.items).any(covers)
 }
 
 /// The cells of a kind whose closed square is at distance <= r from the centre, by row and column.

@@ -168,8 +168,6 @@ pub struct Route {
 /// A grid map: exact frame, bitmaps as they came.
 #[derive(Debug)]
 pub struct Grid {
-    /// Time that it shows, ns.
-    pub stamp_ns: i64,
     /// Origin and direction of the rows.
     pub frame: Frame,
     /// Side of a cell, m.
@@ -331,7 +329,6 @@ fn route(route: &cycle::Route) -> Route {
 
 fn grid(grid: &cycle::Grid) -> Grid {
     Grid {
-        stamp_ns: grid.stamp_ns,
         frame: frame([grid.x, grid.y], [grid.cos, grid.sin]),
         resolution: Real::from_double(grid.resolution),
         width: grid.width,

@@ -1,6 +1,5 @@
 //! `spec/hardened/README.md`: what the vectors of the rules leave out.
 
-mod covered;
 mod fail_safe;
 mod history;
 mod left_out;

@@ -73,22 +73,6 @@ fn detections_cover_and_miss_cells_that_the_rectangle_touches() {
     assert!(seen.len() == 6 && seen.values().all(|count| *count >= 5), "{seen:?}");
 }
 
-/// What is drawn beside stage iv: a detection that drives covers the occupied cell at the time of the grid and not
-/// where it was detected, or the other way round.
-#[test]
-fn detections_cover_where_they_are_at_the_time_of_the_grid() {
-    let seen = counted("collides", |cycle| {
-        let mut at_once = cycle.clone();
-        for (grid, list) in at_once.grid.iter_mut().zip(&cycle.detections) {
-            grid.stamp_ns = list.stamp_ns;
-        }
-        let [moved, at_once] = [cycle, &at_once].map(|it| collides(&exact(it)));
-        (moved != at_once).then_some(moved)
-    });
-    // In `MotRemote` it matters at places beyond the points of the paper alone.
-    assert!(seen.values().filter(|count| **count >= 10).count() >= 4, "{seen:?}");
-}
-
 /// Of 4000 cases beside stage iv how many are of a kind, by configuration.
 fn counted<K: Ord + Debug>(
     title: &str,

@@ -1,10 +1,7 @@
-//! Which current detections confirmed tracks explain, and how these move.
+//! Which current detections confirmed tracks explain.
 
-use crate::hardened::detection_history::lists::Lists;
-use crate::hardened::detection_history::{DetectionHistory, UsableList};
-use crate::hardened::h14_fail_safe::motion::Motion;
-use crate::input::cycle::{Cycle, Track, TrackList};
-use crate::input::parameters::Parameters;
+use crate::hardened::detection_history::DetectionHistory;
+use crate::input::cycle::TrackList;
 use crate::input::scratch::{Column, Row, Scratch};
 
 /// The current detections that confirmed tracks of a current list explain (SEEN-13).
@@ -46,51 +43,5 @@ impl Explained {
         let track = usize::from(columns.get(detection)?.explained_by);
         let item = rows.get(track).filter(|_| track < self.tracks)?.confirmed_by()?;
         (usize::from(item) == detection).then_some(track)
-    }
-}
-
-/// Where the detections that tracks explain came from.
-pub(crate) struct Explaining<'m, 'c, 'a> {
-    explained: Explained,
-    tracks: &'m [Track],
-    rows: &'m [Row],
-    columns: &'m [Column],
-    lists: Lists<'m, 'c, 'a>,
-    parameters: &'m Parameters,
-}
-
-impl<'m, 'c, 'a> Explaining<'m, 'c, 'a> {
-    pub(crate) fn new(
-        cycle: &'m Cycle<'a>,
-        history: &'m DetectionHistory<'c, 'a>,
-        list: &'m TrackList<'_>,
-        scratch: &'m mut Scratch<'_>,
-    ) -> Self {
-        let explained = Explained::new(history, Some(list), scratch);
-        let lists = Lists::new(cycle, history, Some(list));
-        let (rows, columns, parameters) = (&*scratch.rows, &*scratch.columns, &cycle.parameters);
-        Self { explained, tracks: list.items, rows, columns, lists, parameters }
-    }
-
-    /// A detection that a track explains, moving as it did since the list of the track (H-06.7).
-    pub(crate) fn moving(&self, detection: usize, now: &Motion) -> Option<Motion> {
-        let track = self.explained.by(detection, self.rows, self.columns)?;
-        let past = self.lists.past_of(self.rows.get(track)?)?;
-        let UsableList { age_ns, age, .. } = past.usable;
-        let origin = past.origin(self.tracks.get(track)?)?;
-        Some(now.coming_from(origin, age_ns, 1.0 / age))
-    }
-
-    /// The velocity that the track states which explains a detection, m/s.
-    pub(crate) fn stated(&self, detection: usize) -> Option<[f64; 2]> {
-        let track = self.explained.by(detection, self.rows, self.columns)?;
-        self.tracks.get(track).map(|track| [track.vx, track.vy])
-    }
-
-    /// By less than that the velocity of a detection is another one, m/s: it came from an item near the past of a track
-    /// near it (SEEN-06, SEEN-09), and no list is younger than 0.2 s.
-    pub(crate) const fn misstated(&self) -> f64 {
-        let &Parameters { theta_velocity, theta_track_max, .. } = self.parameters;
-        theta_velocity + 11.0 * theta_track_max
     }
 }

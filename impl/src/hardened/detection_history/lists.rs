@@ -58,23 +58,9 @@ impl Past<'_> {
 
     /// Whether an item is as near to the past as one may be (H-14.18).
     pub(crate) fn has(&self, track: &Track, item: [f64; 2]) -> bool {
-        self.squared(track, item) <= self.reach * self.reach
-    }
-
-    /// Where the item is that is nearest to the past: its origin, in the list of the track (SEEN-06).
-    pub(crate) fn origin(&self, track: &Track) -> Option<[f64; 2]> {
-        let places = self.usable.items.iter().map(|item| [item.x, item.y]);
-        let by_distance = |a: &[f64; 2], b: &[f64; 2]| {
-            self.squared(track, *a).total_cmp(&self.squared(track, *b))
-        };
-        places.min_by(by_distance)
-    }
-
-    /// How far an item is from the past, m^2.
-    fn squared(&self, track: &Track, [x, y]: [f64; 2]) -> f64 {
         let [dx, dy] = self.moved(track);
-        let (x, y) = ((track.x - x) + dx, (track.y - y) + dy);
-        x * x + y * y
+        let (x, y) = ((track.x - item[0]) + dx, (track.y - item[1]) + dy);
+        x * x + y * y <= self.reach * self.reach
     }
 }
 

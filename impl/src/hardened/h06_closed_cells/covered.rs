@@ -1,88 +1,49 @@
 //! Which cells a current detection covers (H-06 of `spec/hardened/H-06.md`).
 
-use crate::hardened::detection_history::explained::Explaining;
-use crate::hardened::h14_fail_safe::motion::Motion;
-use crate::input::cycle::{Detection, DetectionList, Grid};
+use crate::input::cycle::{Detection, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::float;
 use crate::numbers::rectangle::{Rectangle, certainly_touch};
 use crate::numbers::rounding::Real;
-use crate::numbers::time::{elapsed_ns, seconds};
 use crate::stages::llcc::sweep::MovingRectangle;
+use crate::stages::llcc::vector;
 
 /// Detections over a grid.
 pub(super) struct Covered<'c, 'a> {
     pub(super) grid: &'c Grid<'a>,
     pub(super) items: &'c [Detection],
-    /// Where they came from, where H-14 examines that (H-06.7).
-    explaining: Option<&'c Explaining<'c, 'c, 'a>>,
-    /// From their stamp to that of the grid, ns.
-    since_ns: i64,
-    /// So far the velocity that a track states may lead astray in that time, m.
-    astray: f64,
 }
 
-impl<'c, 'a> Covered<'c, 'a> {
-    pub(super) fn new(
-        grid: &'c Grid<'a>,
-        list: Option<&'c DetectionList<'a>>,
-        explaining: Option<&'c Explaining<'c, 'c, 'a>>,
-    ) -> Self {
-        let items = list.map_or(&[][..], |list| list.items);
-        let stamp_ns = list.map_or(grid.stamp_ns, |list| list.stamp_ns);
-        let since_ns = elapsed_ns(stamp_ns, grid.stamp_ns);
-        let astray = explaining.map_or(0.0, |it| it.misstated() * seconds(since_ns).abs());
-        Self { grid, items, explaining, since_ns, astray }
-    }
-
+impl Covered<'_, '_> {
     /// Whether a cell certainly shares a point with some detection, grown (H-06.3). `latest`: which
     /// one covered a cell last; it often covers the next one, too.
-    pub(super) fn has(&self, i: i64, k: i64, latest: &mut Latest) -> bool {
+    pub(super) fn has(&self, i: i64, k: i64, latest: &mut usize) -> bool {
         let (plain, square) = (plain_square(self.grid, i, k), || square(self.grid, i, k));
-        if latest.is_some_and(|it| certainly_covers(&it, &plain, square)) {
+        let covers =
+            |at: usize| self.items.get(at).is_some_and(|it| certainly_covers(it, &plain, square));
+        if covers(*latest) {
             return true;
         }
-        let mut near = self.items.iter().map(grown).enumerate();
-        let found = near.find_map(|(detection, grown)| {
-            if self.is_far(detection, &grown, &plain) {
-                return None;
-            }
-            let motion = self.motion(detection, grown);
-            certainly_covers(&motion, &plain, square).then_some(motion)
-        });
-        *latest = found.or(*latest);
+        let found = (0..self.items.len()).find(|&at| covers(at));
+        *latest = found.unwrap_or(*latest);
         found.is_some()
-    }
-
-    /// Most are, and need not be looked for in a list.
-    fn is_far(&self, detection: usize, grown: &MovingRectangle, cell: &MovingRectangle) -> bool {
-        let stated = self.explaining.and_then(|it| Some((it.stated(detection)?, self.astray)));
-        let (velocity, astray) = stated.unwrap_or_default();
-        let moving = Motion::new(MovingRectangle { velocity, ..*grown }, self.since_ns);
-        cell.certainly_far(&moving.plainly(), cell.reach() + grown.reach() + astray)
-    }
-
-    /// How it moves until the grid is measured.
-    fn motion(&self, detection: usize, grown: MovingRectangle) -> Motion {
-        let stands = Motion::new(grown, self.since_ns);
-        self.explaining.and_then(|it| it.moving(detection, &stands)).unwrap_or(stands)
     }
 }
 
-/// What covered a cell last.
-pub(super) type Latest = Option<Motion>;
-
-/// Whether the cell certainly shares a point with a detection, grown and moved on. What is detected fills its cells:
-/// plain doubles tell most.
+/// Whether the cell certainly shares a point with the detection's rectangle, grown. Most detections
+/// are far off, and what is detected fills its cells: plain doubles tell both.
 fn certainly_covers(
-    motion: &Motion,
+    detection: &Detection,
     plain: &MovingRectangle,
     square: impl FnOnce() -> Rectangle,
 ) -> bool {
-    let moved = motion.plainly();
-    let by = || motion.velocity().times(Real::seconds(motion.age_ns));
-    moved.certainly_contains(plain.centre)
-        || !plain.certainly_apart(&moved) && certainly_touch(&motion.now.displaced(by()), &square())
+    let grown = grown(detection);
+    if plain.certainly_far(&grown, plain.reach() + grown.reach()) {
+        return false;
+    }
+    grown.certainly_contains(plain.centre)
+        || !plain.certainly_apart(&grown)
+            && certainly_touch(&grown.displaced(vector([0.0; 2])), &square())
 }
 
 /// The detection's rectangle with half length and half width greater by 1/4 m, or by a rounding less.

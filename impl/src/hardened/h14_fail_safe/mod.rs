@@ -5,7 +5,7 @@ mod beside;
 mod cover;
 mod excess;
 mod meeting;
-pub(crate) mod motion;
+mod motion;
 mod motions;
 pub(crate) mod nodes;
 pub(crate) mod path;

@@ -10,35 +10,30 @@ use crate::stages::llcc::vector;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     /// At the time of its list (H-14.23).
-    pub(crate) now: MovingRectangle,
+    pub(super) now: MovingRectangle,
     /// Where it was so many ns before, unless its velocity was given.
     pub(super) from: Option<([f64; 2], i64)>,
-    /// Of its list (H-14.23); in H-06 the time from that list to the grid.
-    pub(crate) age_ns: i64,
+    /// Of its list (H-14.23).
+    pub(super) age_ns: i64,
     /// The same in s.
-    pub(crate) age: f64,
+    pub(super) age: f64,
 }
 
 impl Motion {
-    pub(crate) fn new(now: MovingRectangle, age_ns: i64) -> Self {
+    pub(super) fn new(now: MovingRectangle, age_ns: i64) -> Self {
         Self { now, from: None, age_ns, age: seconds(age_ns) }
     }
 
     /// The same, come from a place so many ns before.
-    pub(crate) fn coming_from(&self, before: [f64; 2], dt_ns: i64, rate: f64) -> Self {
+    pub(super) fn coming_from(&self, before: [f64; 2], dt_ns: i64, rate: f64) -> Self {
         let ([x, y], [x_before, y_before]) = (self.now.centre, before);
         let velocity = [(x - x_before) * rate, (y - y_before) * rate];
         let now = MovingRectangle { velocity, ..self.now };
         Self { now, from: Some((before, dt_ns)), ..*self }
     }
 
-    /// Where it is after its age, in plain doubles.
-    pub(crate) fn plainly(&self) -> MovingRectangle {
-        MovingRectangle { centre: self.now.after(self.age), ..self.now }
-    }
-
     /// Its velocity, m/s.
-    pub(crate) fn velocity(&self) -> Vector {
+    pub(super) fn velocity(&self) -> Vector {
         self.from.map_or(vector(self.now.velocity), |(before, dt_ns)| {
             let rate = Real::quotient(1e9, Real::integer(dt_ns).value());
             Vector::between(before, self.now.centre).times(rate)

@@ -53,7 +53,7 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 }
 
 /// What was put beside the cell drives along the road or away from the CAV, as its track says and the CAV saw: it is
-/// there at the time of the grid (H-06.7). At times a list misses it, or shows another thing beside it, and its track is
+/// there at the time of the grid, which decides nothing so far. At times a list misses it, or shows another thing beside it, and its track is
 /// another one's, too, or there is none.
 fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let detected = cycle.detections.as_ref().map(|list| list.items.clone());
@@ -90,7 +90,7 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     }
     cycle.detections = Some(list(t_d));
     let Detection { x, y, cos, sin, length, width } = at(t_d);
-    // It is not believed how fast it is.
+    // Its track does not say how fast it is.
     let stated = draw.pick(&[1.0, 0.9, 1.1]);
     let (vx, vy) = (stated * vx, stated * vy);
     let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };

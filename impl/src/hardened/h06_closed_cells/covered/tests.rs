@@ -1,7 +1,6 @@
 //! Which cells a detection certainly covers, beside plain doubles with a margin.
 
 use super::{certainly_covers, grown, plain_square, square};
-use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::input::cycle::{Detection, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::Rectangle;
@@ -50,8 +49,7 @@ fn a_cell_is_covered_exactly_when_it_touches_what_is_grown() {
         let given = detection(&mut random, place);
         let (i, k) = (random.below(4) as i64, random.below(4) as i64);
         let plain = plain_square(&grid, i, k);
-        let covers =
-            certainly_covers(&Motion::new(grown(&given), 0), &plain, || square(&grid, i, k));
+        let covers = certainly_covers(&given, &plain, || square(&grid, i, k));
         let apart = |less: f64| {
             let it = MovingRectangle::detection(&given);
             let it = MovingRectangle { size: it.size.map(|size| size + 0.5 - less), ..it };
@@ -74,10 +72,7 @@ fn what_possibly_touches_is_not_covered() {
     let covers = |by: f64| {
         let known = square(&grid, 0, 0);
         let centre = Vector { x: known.centre.x.widened(by), ..known.centre };
-        certainly_covers(&Motion::new(grown(&given), 0), &plain_square(&grid, 0, 0), || Rectangle {
-            centre,
-            ..known
-        })
+        certainly_covers(&given, &plain_square(&grid, 0, 0), || Rectangle { centre, ..known })
     };
     assert!(covers(0.0) && covers(4e-4) && !covers(6e-4));
 }
