@@ -80,6 +80,31 @@ fn a_cell_behind_a_car_collides_from_a_quarter_metre_on() {
     }
 }
 
+/// Something small drives past the cell beside the road, which a CAV of 2 m touches, and the grid is 100 ms older than the
+/// detections. Its track chooses of their lists where it came from: it covers what is beside where it was detected, alone.
+#[test]
+fn a_detection_covers_where_it_was_detected_whatever_its_track_says() {
+    for place in PLACES {
+        let found = |[speed, ahead]: [f64; 2]| {
+            let mut scene = occupied(PlanRemote, place, &[BESIDE]);
+            scene.ego.width = 2.0;
+            scene.change = |cycle| cycle.grid.iter_mut().for_each(|it| it.stamp_ns -= 90_000_000);
+            let [x, y] = [place[0] + ahead, place[1] + 1.5];
+            let (length, width) = (0.125, 0.125);
+            let at = |ago: f64| Detection { length, width, ..detection(x - speed * ago, y) };
+            let seen = |ago: f64| vec![at(0.0), at(ago)];
+            scene.detections = Some(vec![at(0.0)]);
+            scene.history = vec![(300_000_000, seen(0.3)), (500_000_000, seen(0.5))];
+            scene.tracks = Some(vec![Track { vx: speed, length, width, ..track(2, x, y) }]);
+            hit(&scene)
+        };
+        for speed in [60.0, 30.0, -30.0] {
+            let moved = 2.5 + 0.09 * speed;
+            assert_eq!([2.5, moved].map(|ahead| found([speed, ahead])), [None, HIT_BESIDE]);
+        }
+    }
+}
+
 /// The cell beside the road, which a CAV of 2 m touches, and something that stands a little farther aside.
 fn beside_the_cell(configuration: Configuration, place: [f64; 2], standing: Detection) -> Scene {
     let mut scene = occupied(configuration, place, &[BESIDE]);
