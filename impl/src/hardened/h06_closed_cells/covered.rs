@@ -30,8 +30,8 @@ impl Covered<'_, '_> {
     }
 }
 
-/// Whether the cell certainly shares a point with the detection's rectangle, grown. Most detections
-/// are far off, and what is detected fills its cells: plain doubles tell both.
+/// Whether the cell certainly shares a point with the detection's rectangle, grown. Within 1e-6 m of its edge plain doubles
+/// do not tell.
 fn certainly_covers(
     detection: &Detection,
     plain: &MovingRectangle,
@@ -41,7 +41,7 @@ fn certainly_covers(
     if plain.certainly_far(&grown, plain.reach() + grown.reach()) {
         return false;
     }
-    grown.certainly_contains(plain.centre)
+    plain.certainly_touches(&grown)
         || !plain.certainly_apart(&grown)
             && certainly_touch(&grown.displaced(vector([0.0; 2])), &square())
 }

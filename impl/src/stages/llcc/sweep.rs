@@ -132,12 +132,9 @@ impl MovingRectangle {
         self.is_apart(other, minus(other.centre, self.centre), MARGIN)
     }
 
-    /// Whether a point is certainly in the rectangle, at the time 0.
-    pub(crate) fn certainly_contains(&self, point: [f64; 2]) -> bool {
-        let [along, across] = split(self.direction, minus(point, self.centre)).map(f64::abs);
-        // The squares of directions may be less than 1 by 1e-6.
-        let [length, width] = self.size.map(|size| 0.5 * (1.0 - 1e-6) * size - MARGIN);
-        along < length && across < width
+    /// Whether the rectangle certainly shares a point with another one, at the time 0: no axis of a side separates them.
+    pub(crate) fn certainly_touches(&self, other: &Self) -> bool {
+        !self.is_apart(other, minus(other.centre, self.centre), -MARGIN)
     }
 
     /// Whether the centres are certainly at least `limit` apart, at the time 0.

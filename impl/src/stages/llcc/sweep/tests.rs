@@ -5,7 +5,7 @@ use std::vec::Vec;
 use super::{MovingRectangle, SLACK, Sweep, minus};
 use crate::input::cycle::{Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
-use crate::numbers::rectangle::{Rectangle, possibly_touch};
+use crate::numbers::rectangle::{Rectangle, certainly_touch, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::random::Random;
 use crate::stages::llcc::{Pose, footprint};
@@ -153,30 +153,24 @@ fn what_passes_a_corner_is_clear() {
 }
 
 #[test]
-fn what_is_certainly_contained_is_inside() {
+fn what_certainly_touches_shares_a_point() {
     let mut random = Random::new(12);
-    let (mut inside, mut off) = (0, 0);
-    for round in 0..20_000 {
+    let (mut touching, mut off) = (0, 0);
+    for round in 0..40_000 {
         let far = [0.0, 1e7][round % 2];
-        let it = object(&mut random, far);
-        let point = [it.centre[0] + random.number(2.0), it.centre[1] + random.number(2.0)];
-        let at = Vector::between(it.centre, point);
-        let direction = Vector::new(it.direction[0], it.direction[1]);
-        let norm_squared = direction.dot(direction);
-        let parts = [at.dot(direction), direction.cross(at)].map(Real::abs).into_iter();
-        let is_within = |(part, size): (Real, f64)| {
-            part.over(norm_squared).certainly_at_most(Real::new(0.5 * size))
-        };
-        let is_inside = parts.zip(it.size).all(is_within);
-        let certain = it.certainly_contains(point);
-        assert!(is_inside || !certain, "{it:?} {point:?}");
+        let [one, other] = [(); 2].map(|()| object(&mut random, far));
+        let shares = certainly_touch(&rectangle(&one, 0), &rectangle(&other, 0));
+        let certain = one.certainly_touches(&other);
+        assert!(shares || !certain, "{one:?} {other:?}");
         // Few are within a margin of a side.
-        inside += u32::from(certain);
-        off += u32::from(is_inside && !certain);
+        touching += u32::from(certain);
+        off += u32::from(shares && !certain);
     }
-    assert!(inside > 2_000 && off < 5, "{inside} {off}");
-    // At a side: a direction that is shorter than 1 makes the rectangle smaller.
-    let it = MovingRectangle { direction: [1.0 - 4e-7, 0.0], ..object(&mut random, 0.0) };
-    let it = MovingRectangle { centre: [0.0; 2], size: [100.0, 100.0], ..it };
-    assert!(it.certainly_contains([49.999, 49.999]) && !it.certainly_contains([49.999_99, 0.0]));
+    assert!(touching > 1_000 && off < 5, "{touching} {off}");
+    // A direction that is shorter than 1 makes the rectangle smaller, by 2e-5 m.
+    let (centre, size) = ([0.0; 2], [100.0; 2]);
+    let cell = MovingRectangle { centre, size, direction: [1.0, 0.0], velocity: [0.0; 2] };
+    let short = MovingRectangle { direction: [1.0 - 4e-7, 0.0], ..cell };
+    let at = |x: f64| short.certainly_touches(&MovingRectangle { centre: [x, 0.0], ..cell });
+    assert!(at(99.999_97) && !at(99.999_99));
 }
