@@ -43,6 +43,7 @@ fn positions() {
         .assert_aimed(&["ii", "no_obstacle_check"]);
 }
 
+/// A plan that H-07.2 decides at its second point.
 pub fn runs_ahead(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let frame = base::frame(draw);
     let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);

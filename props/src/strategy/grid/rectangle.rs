@@ -52,9 +52,9 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     }
 }
 
-/// What was put beside the cell drives along the road or away from the CAV, as its track says and the CAV saw: it is
-/// there at the time of the grid, which decides nothing so far. At times a list misses it, or shows another thing beside it, and its track is
-/// another one's, too, or there is none.
+/// What was put beside the cell drives along the road or away from the CAV: it is there at the time of the grid. It covers
+/// what is beside where it was detected, so that a program that moves it on differs. At times a list misses it, or shows
+/// another thing beside it; a second track has the same detection, or none has.
 fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let detected = cycle.detections.as_ref().map(|list| list.items.clone());
     let (Some([item]), Some(grid)) = (detected.as_deref(), &mut cycle.grid) else { return };
@@ -90,7 +90,7 @@ fn drive(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     }
     cycle.detections = Some(list(t_d));
     let Detection { x, y, cos, sin, length, width } = at(t_d);
-    // Its track does not say how fast it is.
+    // Its track may say another speed.
     let stated = draw.pick(&[1.0, 0.9, 1.1]);
     let (vx, vy) = (stated * vx, stated * vy);
     let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
